@@ -1,0 +1,1 @@
+//! Render, compare and measure with virtual spherical Gaussian lights.

@@ -1,0 +1,1 @@
+//! Elementary functions and vectors, from operations that every backend rounds alike.

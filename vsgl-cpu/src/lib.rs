@@ -1,0 +1,1 @@
+//! The CPU backend of vsgl: loops over the texts of vsgl-core, on all cores.
