@@ -1,0 +1,100 @@
+//! What a backend must be able to do: one method a phase.
+
+use crate::data::{Columns, GBuffer, Image, Pdf, Radiance, Rsm, SceneData, Vsgls};
+use crate::error::Result;
+use crate::plan::{ClusterPlan, GBufferPlan, PdfPlan, RsmPlan, ShadePlan};
+use crate::render::{Observer, View};
+use crate::scene::Light;
+
+/// The phases, on data that the backend keeps where it likes.
+///
+/// Every resource can be brought to the host and taken from it, so any phase can be run on any other backend's input.
+pub trait Backend: Sized {
+    /// This backend's own storage of a resource.
+    type Res<T: Columns>;
+
+    /// Name as on the command line.
+    fn name(&self) -> &'static str;
+    /// Takes a resource from the host.
+    ///
+    /// # Errors
+    /// If the device has no room for it.
+    fn upload<T: Columns>(&self, value: T) -> Result<Self::Res<T>>;
+    /// Brings a resource to the host.
+    ///
+    /// # Errors
+    /// If the device failed.
+    fn download<T: Columns>(&self, resource: &Self::Res<T>) -> Result<T>;
+
+    /// What the camera sees through each sample of the picture.
+    ///
+    /// # Errors
+    /// If the device failed; likewise for all phases.
+    fn gbuffer(
+        &self,
+        scene: &Self::Res<SceneData>,
+        view: &View,
+        plan: &GBufferPlan,
+    ) -> Result<Self::Res<GBuffer>>;
+    /// What the lights see.
+    ///
+    /// # Errors
+    /// If the device failed.
+    fn rsm(
+        &self,
+        scene: &Self::Res<SceneData>,
+        lights: &[Light],
+        plan: &RsmPlan,
+    ) -> Result<Self::Res<Rsm>>;
+    /// The density that clusters are drawn from.
+    ///
+    /// # Errors
+    /// If the device failed.
+    fn pdf(&self, rsm: &Self::Res<Rsm>, plan: &PdfPlan) -> Result<Self::Res<Pdf>>;
+    /// Virtual spherical Gaussian lights from the texels.
+    ///
+    /// # Errors
+    /// If the device failed.
+    fn cluster(
+        &self,
+        scene: &Self::Res<SceneData>,
+        rsm: &Self::Res<Rsm>,
+        pdf: Option<&Self::Res<Pdf>>,
+        plan: &ClusterPlan,
+    ) -> Result<Self::Res<Vsgls>>;
+    /// Light to the eye from every sample. Tells the observer how far it is, and asks whether to go on.
+    ///
+    /// # Errors
+    /// If the device failed; [`crate::Error::Cancelled`] if the observer says so.
+    fn shade(
+        &self,
+        scene: &Self::Res<SceneData>,
+        gbuffer: &Self::Res<GBuffer>,
+        view: &View,
+        lights: &[Light],
+        senders: Senders<'_, Self>,
+        plan: &ShadePlan,
+        observer: &dyn Observer,
+    ) -> Result<Self::Res<Radiance>>;
+    /// The mean over the samples of each pixel.
+    ///
+    /// # Errors
+    /// If the device failed.
+    fn resolve(
+        &self,
+        gbuffer: &Self::Res<GBuffer>,
+        radiance: &Self::Res<Radiance>,
+        view: &View,
+    ) -> Result<Self::Res<Image>>;
+}
+
+/// Where indirect light comes from.
+#[derive(Debug)]
+pub enum Senders<'a, B: Backend> {
+    /// There is none.
+    None,
+    /// Clusters.
+    Vsgls(&'a B::Res<Vsgls>),
+    /// Every texel.
+    Vpls(&'a B::Res<Rsm>),
+}

@@ -1,0 +1,25 @@
+//! Resources: what the phases read and write, as flat arrays of 32-bit numbers.
+//!
+//! Every resource is a [`Columns`]: a small head and a few named arrays. A backend can bring any of them to the host
+//! and take any of them from it, so that tests, dumps and comparisons need no code of their own for each type.
+
+pub(crate) mod columns;
+mod gbuffer;
+mod image;
+mod pdf;
+mod radiance;
+mod rsm;
+mod scene_data;
+mod vsgls;
+
+pub use columns::{Column, Columns, Element, Scalar};
+pub use gbuffer::GBuffer;
+pub use image::Image;
+pub use pdf::Pdf;
+pub use radiance::Radiance;
+pub use rsm::{MapRecord, Rsm};
+pub use scene_data::{MaterialRecord, NO_TEXTURE, SceneData, TextureRecord};
+pub use vsgls::{DiffuseVsgl, SpecularVsgl, Target, Vsgls};
+
+/// Id of no triangle: a ray that left the scene.
+pub const NO_TRIANGLE: u32 = u32::MAX;

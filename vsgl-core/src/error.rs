@@ -1,0 +1,60 @@
+//! What can go wrong, in words that name the place and the remedy.
+
+use crate::render::Phase;
+
+/// Result of a fallible operation of this crate.
+pub type Result<T> = std::result::Result<T, Error>;
+
+/// An error that a user can cause. Broken promises inside the program are assertions instead.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// A scene file that cannot be read, is broken, or requires something unknown.
+    #[error("{file}: {place}: {problem}; {remedy}")]
+    Scene {
+        /// The file as the user named it, or the file it refers to.
+        file: String,
+        /// Where in the file: a JSON path such as `meshes[3].primitives[0].indices`, or `file`.
+        place: String,
+        /// What is wrong there.
+        problem: String,
+        /// What would be accepted, or what to do.
+        remedy: String,
+    },
+    /// A setting or an argument outside its range.
+    #[error("setting `{name}`: {problem}; {remedy}")]
+    Setting {
+        /// Key of the setting, spelled as on the command line.
+        name: String,
+        /// What is wrong with the value, the value included.
+        problem: String,
+        /// What would be accepted.
+        remedy: String,
+    },
+    /// A resource put together from columns that do not fit.
+    #[error("resource `{resource}`: {problem}")]
+    Columns {
+        /// Name of the resource type.
+        resource: &'static str,
+        /// Which column, and what does not fit.
+        problem: String,
+    },
+    /// The observer asked to stop.
+    #[error("cancelled during {0}")]
+    Cancelled(Phase),
+}
+
+impl Error {
+    /// A [`Error::Setting`] from anything that prints.
+    pub fn setting(
+        name: impl Into<String>,
+        problem: impl Into<String>,
+        remedy: impl Into<String>,
+    ) -> Self {
+        Self::Setting {
+            name: name.into(),
+            problem: problem.into(),
+            remedy: remedy.into(),
+        }
+    }
+}

@@ -1,0 +1,4 @@
+//! Rays, triangles and the hierarchy over them.
+
+mod bvh;
+pub use bvh::BvhNode;

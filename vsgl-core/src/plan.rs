@@ -1,0 +1,254 @@
+//! What will run, decided once from the scene's facts and the settings, with a reason for each decision.
+
+use crate::error::{Error, Result};
+use crate::scene::SceneFacts;
+use crate::settings::{
+    Clustering, DiffuseForm, Emission, GlossyForm, Method, OcclusionMethod, PdfMethod, Settings,
+    SharpnessFit, Variance,
+};
+
+/// The phases that run and their parameters. Nothing that is not in here runs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plan {
+    /// Whether materials are glossy as the camera sees them: the specular columns of the G-buffer.
+    pub gbuffer: GBufferPlan,
+    /// Indirect light.
+    pub bounce: Option<BouncePlan>,
+    /// Shading.
+    pub shade: ShadePlan,
+    /// Why, a line for each decision.
+    pub reasons: Vec<Reason>,
+}
+
+/// One decision of the plan.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Reason {
+    /// What was decided about.
+    pub topic: &'static str,
+    /// Whether it runs.
+    pub runs: bool,
+    /// Why.
+    pub why: String,
+}
+
+/// The G-buffer phase.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct GBufferPlan {
+    /// Write the specular columns.
+    pub glossy: bool,
+    /// Read textures.
+    pub textures: bool,
+}
+
+/// The way of the light from the maps to the lights that shade.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BouncePlan {
+    /// The maps.
+    pub rsm: RsmPlan,
+    /// The density, for clusterings that sample.
+    pub pdf: Option<PdfPlan>,
+    /// The clusters; none with the method `vpl`, which shades from the texels themselves.
+    pub cluster: Option<ClusterPlan>,
+}
+
+/// The reflective shadow maps.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct RsmPlan {
+    /// Texels along a side.
+    pub size: u32,
+    /// Write the specular columns.
+    pub glossy: bool,
+    /// Read textures.
+    pub textures: bool,
+}
+
+/// The density on the texels.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PdfPlan {
+    /// Which density.
+    pub method: PdfMethod,
+    /// Clusters to share out between the maps.
+    pub count: u32,
+}
+
+/// The clusters.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ClusterPlan {
+    /// Clusters wanted; there are never more than texels with flux.
+    pub count: u32,
+    /// How texels become clusters.
+    pub method: Clustering,
+    /// Share of the density a kernel holds, times `count`.
+    pub kernel: f32,
+    /// Steps of the bisection.
+    pub bisections: u32,
+    /// Shape of the light sent.
+    pub emission: Emission,
+    /// Mean length to sharpness.
+    pub sharpness: SharpnessFit,
+    /// Convention of the variance.
+    pub variance: Variance,
+    /// Make specular lights.
+    pub glossy: bool,
+}
+
+/// Shading.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ShadePlan {
+    /// Light of virtual lights.
+    pub bounce: bool,
+    /// The receivers' specular part, for direct and indirect light.
+    pub glossy_receivers: bool,
+    /// The senders' specular part.
+    pub glossy_senders: bool,
+    /// Shape of the light sent.
+    pub emission: Emission,
+    /// The receivers' Lambert integral.
+    pub diffuse: DiffuseForm,
+    /// The receivers' specular integral.
+    pub glossy: GlossyForm,
+    /// Blocking of indirect light.
+    pub occlusion: OcclusionMethod,
+}
+
+impl Plan {
+    /// Decides.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] where settings contradict each other.
+    pub fn new(facts: &SceneFacts, settings: &Settings) -> Result<Self> {
+        let mut reasons = Reasons::default();
+        let lit = reasons.decide(
+            "bounce",
+            &[
+                (facts.triangles > 0, "the scene has no triangles"),
+                (facts.lights > 0, "the scene has no lights"),
+                (
+                    facts.reflecting_senders,
+                    "no surface that the lights may reach reflects anything",
+                ),
+            ],
+            "lights reach surfaces that reflect",
+        );
+        let senders = lit
+            && reasons.decide(
+                "specular lobes of the lights",
+                &[(
+                    facts.glossy_senders,
+                    "no glossy surface within reach of the lights",
+                )],
+                "glossy surfaces within reach of the lights",
+            );
+        let receivers = reasons.decide(
+            "specular term of the receivers",
+            &[(
+                facts.glossy_receivers,
+                "no glossy surface in front of the camera",
+            )],
+            "glossy surfaces in front of the camera",
+        );
+        let textures = reasons.decide(
+            "texture reads",
+            &[(facts.textures, "no material has a texture")],
+            "materials have textures",
+        );
+        if settings.emission == Emission::Cosine && settings.glossy == GlossyForm::Asg2013 {
+            return Err(Error::setting(
+                "glossy",
+                "`asg-2013` needs the lobes of `emission` = `sg`",
+                "set `emission` to `sg`, or take the preset `paper-2016`",
+            ));
+        }
+        let clusters = lit && settings.method == Method::Vsgl;
+        if lit && !clusters {
+            reasons.no("clusters", "the method `vpl` takes every texel for a light");
+        }
+        let samples = clusters
+            && reasons.decide(
+                "pdf",
+                &[(
+                    settings.clustering == Clustering::Filtered,
+                    "an exact partition draws no samples",
+                )],
+                "cluster centres are drawn from a density",
+            );
+        let occluded = lit
+            && reasons.decide(
+                "occlusion",
+                &[(
+                    settings.occlusion != OcclusionMethod::None,
+                    "switched off: indirect light passes through walls",
+                )],
+                "one ray from each pixel to each virtual light",
+            );
+        let bounce = lit.then(|| BouncePlan {
+            rsm: RsmPlan {
+                size: settings.rsm,
+                glossy: senders,
+                textures,
+            },
+            pdf: samples.then_some(PdfPlan {
+                method: settings.pdf,
+                count: settings.lights,
+            }),
+            cluster: clusters.then_some(ClusterPlan {
+                count: settings.lights,
+                method: settings.clustering,
+                kernel: settings.kernel,
+                bisections: settings.bisections,
+                emission: settings.emission,
+                sharpness: settings.sharpness,
+                variance: settings.variance,
+                glossy: senders,
+            }),
+        });
+        let shade = ShadePlan {
+            bounce: lit,
+            glossy_receivers: receivers,
+            glossy_senders: senders,
+            emission: settings.emission,
+            diffuse: settings.diffuse,
+            glossy: settings.glossy,
+            occlusion: if occluded {
+                settings.occlusion
+            } else {
+                OcclusionMethod::None
+            },
+        };
+        let gbuffer = GBufferPlan {
+            glossy: receivers,
+            textures,
+        };
+        Ok(Self {
+            gbuffer,
+            bounce,
+            shade,
+            reasons: reasons.0,
+        })
+    }
+}
+
+#[derive(Default)]
+struct Reasons(Vec<Reason>);
+
+impl Reasons {
+    /// Runs only if every condition holds; the first that does not is the reason.
+    fn decide(&mut self, topic: &'static str, needs: &[(bool, &str)], because: &str) -> bool {
+        let missing = needs.iter().find(|(holds, _)| !holds);
+        let why = missing.map_or(because, |(_, why)| why).to_owned();
+        self.0.push(Reason {
+            topic,
+            runs: missing.is_none(),
+            why,
+        });
+        missing.is_none()
+    }
+
+    fn no(&mut self, topic: &'static str, why: &str) {
+        self.0.push(Reason {
+            topic,
+            runs: false,
+            why: why.to_owned(),
+        });
+    }
+}

@@ -1,0 +1,73 @@
+//! A scene as it was read or made: triangles, materials, lights, cameras. SI units, y up by custom only.
+//!
+//! Positions are stored relative to [`Scene::origin`], which is kept in double precision, so that a scene far from
+//! the world's origin loses no digits in the f32 arithmetic of the pipeline.
+
+mod camera;
+pub mod facts;
+#[cfg(feature = "gltf")]
+pub mod gltf;
+mod light;
+mod material;
+pub mod samples;
+
+pub use camera::Camera;
+pub use facts::SceneFacts;
+pub use light::{Light, SpotLight};
+pub use material::{Filter, Material, Texture, TextureRef, Wrap};
+
+use glam::{DVec3, Vec2, Vec3};
+
+/// Triangles, materials, lights and cameras.
+#[derive(Clone, Debug, Default)]
+pub struct Scene {
+    /// A name for reports: file name or sample name.
+    pub name: String,
+    /// World position of the local origin [m]: the centre of the bounds. Everything else is relative to it.
+    pub origin: DVec3,
+    /// All triangles.
+    pub mesh: Mesh,
+    /// Materials that [`Mesh::material`] refers to.
+    pub materials: Vec<Material>,
+    /// Images that materials refer to.
+    pub textures: Vec<Texture>,
+    /// Lights of the file, in file order.
+    pub lights: Vec<Light>,
+    /// Cameras of the file with their names, in file order.
+    pub cameras: Vec<(String, Camera)>,
+    /// What was ignored while reading, a line each, for the user.
+    pub warnings: Vec<String>,
+}
+
+impl Scene {
+    /// Local position of a world position.
+    pub fn local(&self, world: DVec3) -> Vec3 {
+        (world - self.origin).as_vec3()
+    }
+
+    /// Smallest box around all vertices, as (least, greatest) corner [m]; zero without triangles.
+    pub fn bounds(&self) -> (Vec3, Vec3) {
+        let mut corners = self.mesh.positions.iter();
+        let Some(&first) = corners.next() else {
+            return (Vec3::ZERO, Vec3::ZERO);
+        };
+        corners.fold((first, first), |(low, high), &p| (low.min(p), high.max(p)))
+    }
+}
+
+/// Indexed triangles of all objects, already placed in the scene.
+///
+/// `positions`, `normals` and `texcoords` run side by side; so do `triangles` and `material`.
+#[derive(Clone, Debug, Default)]
+pub struct Mesh {
+    /// Vertex positions relative to [`Scene::origin`] [m].
+    pub positions: Vec<Vec3>,
+    /// Unit shading normals, one a vertex.
+    pub normals: Vec<Vec3>,
+    /// Texture coordinates, one a vertex; empty where no material has a texture.
+    pub texcoords: Vec<Vec2>,
+    /// Vertex indices of each triangle.
+    pub triangles: Vec<[u32; 3]>,
+    /// Index into [`Scene::materials`] of each triangle.
+    pub material: Vec<u32>,
+}
