@@ -1,4 +1,11 @@
 //! Rays, triangles and the hierarchy over them.
 
-mod bvh;
-pub use bvh::BvhNode;
+mod build;
+mod ray;
+mod traverse;
+mod triangle;
+
+pub use build::{Bvh, build};
+pub use ray::Ray;
+pub use traverse::{BvhNode, Hit, LANES, STACK, any_hit, any_hit_block, closest_hit};
+pub use triangle::{Crossing, cross};

@@ -1,0 +1,331 @@
+//! Walking the hierarchy.
+
+use super::ray::Ray;
+use super::triangle::{Crossing, cross};
+use crate::data::{Element, NO_TRIANGLE, Scalar};
+use glam::Vec3;
+
+/// Depth that a walk can hold.
+pub const STACK: usize = 64;
+/// Rays that walk together in [`any_hit_block`].
+pub const LANES: usize = 16;
+
+/// Node of the binary hierarchy, 32 bytes.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct BvhNode {
+    /// Least corner of the box [m].
+    pub min: [f32; 3],
+    /// Leaf: first triangle. Inner node: index of the left child; the right one follows it.
+    pub first: u32,
+    /// Greatest corner of the box [m].
+    pub max: [f32; 3],
+    /// Leaf: number of triangles. Inner node: 0.
+    pub count: u32,
+}
+
+impl Element for BvhNode {
+    const SCALAR: Scalar = Scalar::U32;
+}
+
+/// The nearest crossing of a ray.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    /// Id of the triangle, or [`NO_TRIANGLE`].
+    pub triangle: u32,
+    /// Parameter along the ray.
+    pub t: f32,
+    /// Barycentric weight of the second corner.
+    pub u: f32,
+    /// Barycentric weight of the third corner.
+    pub v: f32,
+}
+
+/// Entry and exit parameter of a line through a box; it misses where entry is greater than exit.
+///
+/// The exit is moved outwards by more than the rounding of the slab test, so that no hit inside is lost
+/// (Ize 2013, "Robust BVH Ray Traversal").
+#[inline(always)]
+fn slab(node: &BvhNode, ray: &Ray) -> (f32, f32) {
+    let low = (Vec3::from_array(node.min) - ray.origin) * ray.inverse;
+    let high = (Vec3::from_array(node.max) - ray.origin) * ray.inverse;
+    let (near, far) = (low.min(high), low.max(high));
+    let entry = near.x.max(near.y).max(near.z);
+    let exit = far.x.min(far.y).min(far.z);
+    (entry, exit * 1.000_000_4)
+}
+
+/// Nearest crossing with `0 < t < t_max`; of equal ones that with the lower triangle id.
+pub fn closest_hit(nodes: &[BvhNode], corners: &[[f32; 9]], ray: &Ray, t_max: f32) -> Hit {
+    let mut hit = Hit {
+        triangle: NO_TRIANGLE,
+        t: t_max,
+        u: 0.0,
+        v: 0.0,
+    };
+    let mut stack = [0u32; STACK];
+    let mut held = usize::from(!nodes.is_empty());
+    while held > 0 {
+        held -= 1;
+        let node = &nodes[stack[held] as usize];
+        let (entry, exit) = slab(node, ray);
+        if entry > exit || exit < 0.0 || entry > hit.t {
+            continue;
+        }
+        if node.count == 0 {
+            let (left, right) = (node.first, node.first + 1);
+            let left_entry = slab(&nodes[left as usize], ray).0;
+            let right_entry = slab(&nodes[right as usize], ray).0;
+            // The nearer child is walked first, the left one if neither is.
+            let (near, far) = if right_entry < left_entry {
+                (right, left)
+            } else {
+                (left, right)
+            };
+            stack[held] = far;
+            stack[held + 1] = near;
+            held += 2;
+        } else {
+            for triangle in node.first..node.first + node.count {
+                let found = cross(ray.origin, ray.direction, &corners[triangle as usize]);
+                let Crossing { t, u, v, .. } = found;
+                let nearer = t < hit.t
+                    || (t == hit.t && triangle < hit.triangle && hit.triangle != NO_TRIANGLE);
+                if found.hit && t > 0.0 && nearer {
+                    hit = Hit { triangle, t, u, v };
+                }
+            }
+        }
+    }
+    hit
+}
+
+/// Whether anything is crossed with `0 < t < t_max`.
+pub fn any_hit(nodes: &[BvhNode], corners: &[[f32; 9]], ray: &Ray, t_max: f32) -> bool {
+    let mut stack = [0u32; STACK];
+    let mut held = usize::from(!nodes.is_empty());
+    while held > 0 {
+        held -= 1;
+        let node = &nodes[stack[held] as usize];
+        let (entry, exit) = slab(node, ray);
+        if entry > exit || exit < 0.0 || entry > t_max {
+            continue;
+        }
+        if node.count == 0 {
+            stack[held] = node.first + 1;
+            stack[held + 1] = node.first;
+            held += 2;
+        } else {
+            for triangle in node.first..node.first + node.count {
+                let found = cross(ray.origin, ray.direction, &corners[triangle as usize]);
+                if found.hit && found.t > 0.0 && found.t < t_max {
+                    return true;
+                }
+            }
+        }
+    }
+    false
+}
+
+/// [`any_hit`] with `t_max` 1 for a block of rays that walk together; only where `open` is true is the answer asked.
+///
+/// Gives each ray the answer that [`any_hit`] gives it. Returns 1 where something is crossed or nothing was asked,
+/// else 0.
+#[inline(always)]
+pub fn any_hit_block(
+    nodes: &[BvhNode],
+    corners: &[[f32; 9]],
+    origin: &[[f32; LANES]; 3],
+    direction: &[[f32; LANES]; 3],
+    open: &[bool; LANES],
+) -> [u32; LANES] {
+    let mut inverse = [[0.0f32; LANES]; 3];
+    let mut blocked = [0u32; LANES];
+    for lane in 0..LANES {
+        let ray = Ray::new(
+            Vec3::ZERO,
+            Vec3::new(direction[0][lane], direction[1][lane], direction[2][lane]),
+        );
+        inverse[0][lane] = ray.inverse.x;
+        inverse[1][lane] = ray.inverse.y;
+        inverse[2][lane] = ray.inverse.z;
+        blocked[lane] = u32::from(!open[lane]);
+    }
+    let mut stack = [0u32; STACK];
+    let mut held = usize::from(!nodes.is_empty());
+    while held > 0 {
+        held -= 1;
+        let node = &nodes[stack[held] as usize];
+        let mut met = [0u32; LANES];
+        for lane in 0..LANES {
+            let ray = Ray {
+                origin: Vec3::new(origin[0][lane], origin[1][lane], origin[2][lane]),
+                direction: Vec3::ZERO,
+                inverse: Vec3::new(inverse[0][lane], inverse[1][lane], inverse[2][lane]),
+            };
+            let (entry, exit) = slab(node, &ray);
+            met[lane] =
+                u32::from((entry <= exit) & (exit >= 0.0) & (entry <= 1.0)) & (1 - blocked[lane]);
+        }
+        if met.iter().all(|&m| m == 0) {
+            continue;
+        }
+        if node.count == 0 {
+            stack[held] = node.first + 1;
+            stack[held + 1] = node.first;
+            held += 2;
+            continue;
+        }
+        for triangle in node.first..node.first + node.count {
+            let corner = corners[triangle as usize];
+            for lane in 0..LANES {
+                let from = Vec3::new(origin[0][lane], origin[1][lane], origin[2][lane]);
+                let along = Vec3::new(direction[0][lane], direction[1][lane], direction[2][lane]);
+                let found = cross(from, along, &corner);
+                // Rays whose box test failed cannot cross: the box test is conservative.
+                blocked[lane] |=
+                    u32::from(found.hit & (found.t > 0.0) & (found.t < 1.0)) & met[lane];
+            }
+        }
+        if blocked.iter().all(|&b| b == 1) {
+            break;
+        }
+    }
+    blocked
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::build;
+    use super::*;
+
+    /// A closed octahedron-like star of triangles, subdivided by index arithmetic.
+    fn soup() -> Vec<[f32; 9]> {
+        let hash = |n: u32| {
+            let n = n.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
+            let n = ((n >> ((n >> 28) + 4)) ^ n).wrapping_mul(277_803_737);
+            ((n >> 22) ^ n) as f32 / u32::MAX as f32
+        };
+        (0..500u32)
+            .map(|i| {
+                let mut corner = [0.0; 9];
+                for k in 0..9 {
+                    corner[k as usize] = hash(i * 3 + k % 3) * 4.0 + hash(i * 9 + k) * 0.6;
+                }
+                corner
+            })
+            .collect()
+    }
+
+    fn rays() -> impl Iterator<Item = Ray> {
+        (0..2000u32).map(|i| {
+            let a = i as f32 * 0.618_034;
+            let origin = Vec3::new(a.fract() * 5.0, (a * 7.0).fract() * 5.0, -1.0);
+            let direction = match i % 4 {
+                0 => Vec3::Z,
+                1 => Vec3::new(0.3, -0.2, 1.0) * 6.0,
+                2 => Vec3::new((a * 3.0).fract() - 0.5, (a * 5.0).fract() - 0.5, 1.0) * 5.0,
+                _ => Vec3::new(0.0, 0.1, 2.0),
+            };
+            Ray::new(origin, direction)
+        })
+    }
+
+    #[test]
+    fn walks_agree_with_trying_every_triangle() {
+        let bvh = build(&soup());
+        let corners: Vec<[f32; 9]> = bvh.order.iter().map(|&i| soup()[i as usize]).collect();
+        let mut hits = 0;
+        for ray in rays() {
+            let mut expected = Hit {
+                triangle: NO_TRIANGLE,
+                t: 1.0,
+                u: 0.0,
+                v: 0.0,
+            };
+            for (id, corner) in corners.iter().enumerate() {
+                let found = cross(ray.origin, ray.direction, corner);
+                if found.hit && found.t > 0.0 && found.t < expected.t {
+                    expected = Hit {
+                        triangle: id as u32,
+                        t: found.t,
+                        u: found.u,
+                        v: found.v,
+                    };
+                }
+            }
+            assert_eq!(closest_hit(&bvh.nodes, &corners, &ray, 1.0), expected);
+            assert_eq!(
+                any_hit(&bvh.nodes, &corners, &ray, 1.0),
+                expected.triangle != NO_TRIANGLE
+            );
+            hits += usize::from(expected.triangle != NO_TRIANGLE);
+        }
+        assert!(hits > 200 && hits < 1900, "{hits} of 2000 rays hit");
+    }
+
+    #[test]
+    fn a_block_of_rays_gets_the_answers_of_single_rays() {
+        let bvh = build(&soup());
+        let corners: Vec<[f32; 9]> = bvh.order.iter().map(|&i| soup()[i as usize]).collect();
+        let rays: Vec<Ray> = rays().collect();
+        for block in rays.chunks_exact(LANES) {
+            let lane = |f: fn(&Ray) -> f32| std::array::from_fn(|i| f(&block[i]));
+            let origin = [
+                lane(|r| r.origin.x),
+                lane(|r| r.origin.y),
+                lane(|r| r.origin.z),
+            ];
+            let direction = [
+                lane(|r| r.direction.x),
+                lane(|r| r.direction.y),
+                lane(|r| r.direction.z),
+            ];
+            let got = any_hit_block(&bvh.nodes, &corners, &origin, &direction, &[true; LANES]);
+            for (ray, got) in block.iter().zip(got) {
+                assert_eq!(got == 1, any_hit(&bvh.nodes, &corners, ray, 1.0));
+            }
+        }
+    }
+
+    #[test]
+    fn no_ray_leaves_a_closed_box_even_along_its_planes() {
+        let mut corners = Vec::new();
+        for axis in 0..3usize {
+            for side in [-1.0f32, 1.0] {
+                let point = |s: f32, t: f32| {
+                    let mut p = [0.0; 3];
+                    p[axis] = side;
+                    p[(axis + 1) % 3] = s;
+                    p[(axis + 2) % 3] = t;
+                    p
+                };
+                for [p, q, r] in [
+                    [point(-1.0, -1.0), point(1.0, -1.0), point(1.0, 1.0)],
+                    [point(-1.0, -1.0), point(1.0, 1.0), point(-1.0, 1.0)],
+                ] {
+                    corners.push([p[0], p[1], p[2], q[0], q[1], q[2], r[0], r[1], r[2]]);
+                }
+            }
+        }
+        let bvh = build(&corners);
+        let corners: Vec<[f32; 9]> = bvh.order.iter().map(|&i| corners[i as usize]).collect();
+        for i in 0..40_000u32 {
+            let a = f64::from(i) * 0.618_033_988_749;
+            let fract = |f: f64| ((a * f).fract() - 0.5) as f32;
+            let origin = Vec3::new(fract(1.0) * 1.9, fract(13.0) * 1.9, 0.0);
+            let direction = match i % 5 {
+                0 => Vec3::X,
+                1 => Vec3::NEG_Y,
+                2 => Vec3::new(1.0, 1.0, 0.0),
+                3 => Vec3::ONE - origin,
+                _ => Vec3::new(fract(3.0), fract(7.0), fract(11.0)),
+            };
+            let hit = closest_hit(&bvh.nodes, &corners, &Ray::new(origin, direction), f32::MAX);
+            assert_ne!(
+                hit.triangle, NO_TRIANGLE,
+                "ray {i} from {origin} along {direction}"
+            );
+        }
+    }
+}
