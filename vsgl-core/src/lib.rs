@@ -13,6 +13,8 @@ mod error;
 #[cfg(feature = "render")]
 pub mod geom;
 #[cfg(feature = "render")]
+pub mod metrics;
+#[cfg(feature = "render")]
 pub mod phase;
 #[cfg(feature = "render")]
 pub mod plan;
