@@ -1,1 +1,4 @@
 //! Elementary functions and vectors, from operations that every backend rounds alike.
+
+pub mod elementary;
+pub mod vec;

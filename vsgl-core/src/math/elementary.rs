@@ -1,0 +1,275 @@
+//! Exponential, logarithm and error functions in `f32`, built from `+ - * /`, `floor`, comparisons and bits only.
+//!
+//! Standard libraries and shader compilers each round these functions in their own way. The ones here are texts:
+//! every backend that repeats them operation for operation obtains the same bits, and a loop over lanes vectorises.
+//! Polynomials are in Horner form from the highest coefficient down and must be copied in that order. The coefficients
+//! are our own minimax fits, made by `scripts/fit_elementary.py`.
+//!
+//! Arguments are finite. Errors were measured against exact values, see `docs/accuracy.md`.
+
+/// Above this argument [`exp`] stays at its value there, about 1.65e38.
+pub const EXP_ARGUMENT_MAX: f32 = 88.0;
+
+/// Below this argument [`exp`] is zero: its value would leave the normal numbers, which some devices flush.
+pub const EXP_ARGUMENT_MIN: f32 = -87.0;
+
+/// `1/√π`.
+pub const INV_SQRT_PI: f32 = 0.564_189_6;
+
+/// An argument split as `x = n ln 2 + r`, with what [`exp`] and its relatives share.
+#[derive(Clone, Copy)]
+struct Reduced {
+    /// `n`, a whole number in -126 … 127.
+    whole: f32,
+    /// `2ⁿ`.
+    scale: f32,
+    /// `r`, within ±0.3466.
+    rest: f32,
+    /// `(eʳ − 1)/r`.
+    slope: f32,
+}
+
+#[inline(always)]
+fn reduce(x: f32) -> Reduced {
+    let x = x.clamp(EXP_ARGUMENT_MIN, EXP_ARGUMENT_MAX);
+    let whole = (x * std::f32::consts::LOG2_E + 0.5).floor();
+    // ln 2 in two parts; the first has few bits, so that its product with a small whole number is exact.
+    let rest = (x - whole * 0.693_359_4) - whole * -2.121_944_4e-4;
+    let mut slope = 1.395_048_7e-3;
+    slope = slope * rest + 8.368_888e-3;
+    slope = slope * rest + 4.166_620_6e-2;
+    slope = slope * rest + 0.166_665_18;
+    slope = slope * rest + 0.5;
+    slope = slope * rest + 1.0;
+    // 2^23 + 127 + n has n + 127 in its lowest bits; the shift drops the rest and leaves the bits of 2ⁿ. No conversion
+    // to an integer, which would saturate in Rust and not elsewhere.
+    let scale = f32::from_bits((whole + 8_388_735.0).to_bits() << 23);
+    Reduced {
+        whole,
+        scale,
+        rest,
+        slope,
+    }
+}
+
+/// `e^x`.
+///
+/// Zero below [`EXP_ARGUMENT_MIN`], constant above [`EXP_ARGUMENT_MAX`]: always finite, never subnormal, monotone.
+/// Relative error at most 1e-7 between.
+#[inline(always)]
+#[must_use]
+pub fn exp(x: f32) -> f32 {
+    let r = reduce(x);
+    let value = (r.slope * r.rest + 1.0) * r.scale;
+    if x < EXP_ARGUMENT_MIN { 0.0 } else { value }
+}
+
+/// `e^x − 1` without cancellation, relative error at most 1.5e-7. Saturates above [`EXP_ARGUMENT_MAX`] as [`exp`] does.
+#[inline(always)]
+#[must_use]
+pub fn expm1(x: f32) -> f32 {
+    let r = reduce(x);
+    let near = r.slope * r.rest;
+    let far = near * r.scale + (r.scale - 1.0);
+    if r.whole == 0.0 { near } else { far }
+}
+
+/// `(e^x − 1)/x`, 1 at 0, relative error at most 1.3e-7; tends to `−1/x` for `x → −∞`.
+///
+/// Near zero this is the polynomial of the reduction itself, so nothing is divided by a small number.
+/// Meant for `x ≤ 0`; saturates above [`EXP_ARGUMENT_MAX`].
+#[inline(always)]
+#[must_use]
+pub fn expm1_over_x(x: f32) -> f32 {
+    let r = reduce(x);
+    let far = (r.slope * r.rest * r.scale + (r.scale - 1.0)) / x;
+    if r.whole == 0.0 { r.slope } else { far }
+}
+
+/// Natural logarithm, relative error at most 1.2e-7 for normal positive `x`.
+///
+/// Zero, negative and subnormal arguments give `ln 2⁻¹²⁶ ≈ −87.34`: always finite.
+#[inline(always)]
+#[must_use]
+pub fn log(x: f32) -> f32 {
+    let bits = x.max(f32::MIN_POSITIVE).to_bits();
+    // Exponent and mantissa such that the mantissa lies in [√½, √2): the bits of √½ become the zero of the count.
+    let shifted = bits.wrapping_sub(0x3f35_04f3);
+    let exponent = ((shifted as i32) >> 23) as f32;
+    let mantissa = f32::from_bits((shifted & 0x007f_ffff).wrapping_add(0x3f35_04f3));
+    let m = mantissa - 1.0;
+    let mut p = -7.621_856e-2;
+    p = p * m + 0.129_044_95;
+    p = p * m - 0.132_429_85;
+    p = p * m + 0.141_818_14;
+    p = p * m - 0.166_090_82;
+    p = p * m + 0.200_019_75;
+    p = p * m - 0.250_015_82;
+    p = p * m + 0.333_333_25;
+    p = p * m - 0.499_999_88;
+    p = p * m + 1.0;
+    p * m + exponent * std::f32::consts::LN_2
+}
+
+/// Error function, odd, relative error at most 2.3e-7; ±1 beyond ±3.9.
+///
+/// One polynomial for the whole range: no exponential and no division. For the complement of large arguments use
+/// [`erfc`], since `1 − erf(x)` has no correct digit beyond 3.7.
+#[inline(always)]
+#[must_use]
+pub fn erf(x: f32) -> f32 {
+    let u = x.clamp(-3.9, 3.9);
+    let s = u * u * 0.131_492_44 - 1.0;
+    let mut p = -7.666_710_3e-4;
+    p = p * s + 1.922_207_8e-3;
+    p = p * s - 1.336_781_1e-3;
+    p = p * s + 1.905_825_1e-3;
+    p = p * s - 7.286_073e-3;
+    p = p * s + 1.358_076_6e-2;
+    p = p * s - 1.943_553_4e-2;
+    p = p * s + 2.913_501e-2;
+    p = p * s - 4.281_896_4e-2;
+    p = p * s + 5.790_580_8e-2;
+    p = p * s - 7.379_646_6e-2;
+    p = p * s + 9.067_003e-2;
+    p = p * s - 0.109_532_885;
+    p = p * s + 0.134_691_07;
+    p = p * s - 0.181_011_08;
+    p = p * s + 0.362_583_97;
+    let near = (p * u).clamp(-1.0, 1.0);
+    let right = if x < 3.9 { near } else { 1.0 };
+    if x > -3.9 { right } else { -1.0 }
+}
+
+/// Complementary error function `1 − erf(x)`, relative error at most 3e-7; 0 beyond about 9.3.
+///
+/// `e^{x²} erfc(x)` is smooth and slowly varying: a polynomial in `(x − 2)/(x + 2)` after division by `1 + 2x`.
+/// Source of that form: Shepherd and Laframboise 1981, "Chebyshev Approximation of (1+2x)exp(x²)erfc x in 0 ≤ x < ∞";
+/// the coefficients are our own, for `f32`.
+#[inline(always)]
+#[must_use]
+pub fn erfc(x: f32) -> f32 {
+    let u = x.abs().min(10.0);
+    let q = (u - 2.0) / (u + 2.0);
+    let mut p = -3.994_463_8e-4;
+    p = p * q - 1.227_998_5e-3;
+    p = p * q + 1.313_306_7e-3;
+    p = p * q + 8.630_094e-3;
+    p = p * q - 8.060_141_5e-3;
+    p = p * q - 5.420_388_3e-2;
+    p = p * q + 0.164_055_42;
+    p = p * q - 0.166_031_46;
+    p = p * q - 9.276_398e-2;
+    p = p * q + 1.276_978_4;
+    // x² of a rounded square would cost a relative error of x² 6e-8. The head of x squares exactly; what is left of the
+    // exponent is below 0.05, where a short series is enough.
+    let head = f32::from_bits(u.to_bits() & 0xffff_f000);
+    let rest = (u - head) * (u + head);
+    let mut correction = 4.166_666_8e-2;
+    correction = correction * rest - 0.166_666_67;
+    correction = correction * rest + 0.5;
+    correction = correction * rest - 1.0;
+    correction = correction * rest + 1.0;
+    let tail = exp(-(head * head)) * correction * (p / (1.0 + 2.0 * u));
+    if x < 0.0 { 2.0 - tail } else { tail }
+}
+
+/// `∫₀ᵘ erf(s) ds = u erf(u) − (1 − e^{−u²})/√π` for `u ≥ 0`; error at most 2e-7 `u`.
+///
+/// The interpolation of the clamped-cosine integrals consists of two of these and of no other special function, see
+/// [`crate::sg::cosine`]. Grows like `u²/√π` from 0 and like `u − 1/√π` to infinity.
+#[inline(always)]
+#[must_use]
+pub fn erf_integral(u: f32) -> f32 {
+    let v = u.min(3.5);
+    let w = v * v;
+    let s = w * 0.163_265_3 - 1.0;
+    let mut p = 8.382_407_4e-5;
+    p = p * s - 2.473_678e-4;
+    p = p * s + 3.634_537e-4;
+    p = p * s - 7.326_377e-4;
+    p = p * s + 1.788_921_9e-3;
+    p = p * s - 3.657_146e-3;
+    p = p * s + 6.807_106_5e-3;
+    p = p * s - 1.220_920_3e-2;
+    p = p * s + 2.106_849_7e-2;
+    p = p * s - 3.539_402_4e-2;
+    p = p * s + 5.985_000_4e-2;
+    p = p * s - 0.110_025_354;
+    p = p * s + 0.311_961_92;
+    if u < 3.5 { p * w } else { u - INV_SQRT_PI }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn relative(value: f32, exact: f64) -> f64 {
+        (f64::from(value) - exact).abs() / exact.abs().max(f64::from(f32::MIN_POSITIVE))
+    }
+
+    /// Largest relative error of `f` over evenly spaced arguments.
+    fn worst(low: f64, high: f64, f: impl Fn(f32) -> f32, exact: impl Fn(f64) -> f64) -> f64 {
+        (0..=200_000)
+            .map(|i| (low + (high - low) * f64::from(i) / 200_000.0) as f32)
+            .map(|x| relative(f(x), exact(f64::from(x))))
+            .fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn agree_with_libm() {
+        assert!(worst(-87.0, 88.0, exp, libm::exp) < 1.0e-7);
+        assert!(worst(-20.0, 20.0, expm1, libm::expm1) < 1.5e-7);
+        assert!(worst(-1.1, 1.1, expm1, libm::expm1) < 1.5e-7);
+        assert!(worst(-30.0, -1e-3, expm1_over_x, |x| libm::expm1(x) / x) < 1.5e-7);
+        assert!(worst(1e-6, 40.0, log, libm::log) < 1.25e-7);
+        assert!(worst(-4.5, 4.5, erf, libm::erf) < 2.5e-7);
+        assert!(worst(-4.0, 9.1, erfc, libm::erfc) < 3.2e-7);
+        let integral =
+            |u: f64| u * libm::erf(u) + libm::expm1(-u * u) / std::f64::consts::PI.sqrt();
+        assert!(worst(0.2, 30.0, erf_integral, integral) < 2e-6);
+        for i in 0..20_000 {
+            let u = i as f32 * 1e-3;
+            assert!(
+                (f64::from(erf_integral(u)) - integral(f64::from(u))).abs() <= 2e-7 * f64::from(u)
+            );
+        }
+    }
+
+    #[test]
+    fn logarithm_over_all_exponents() {
+        for exponent in -126..=127 {
+            for i in 0..64 {
+                let x = (f64::from(1 + i) / 64.0 + 1.0) * 2f64.powi(exponent);
+                let x = (x as f32).min(f32::MAX);
+                assert!(
+                    (f64::from(log(x)) - libm::log(f64::from(x))).abs()
+                        < 1.2e-7 * libm::log(f64::from(x)).abs() + 6e-8
+                );
+            }
+        }
+        assert_eq!(log(1.0), 0.0);
+        assert_eq!(log(0.0), log(f32::MIN_POSITIVE));
+    }
+
+    #[test]
+    fn edges() {
+        assert_eq!(exp(0.0), 1.0);
+        assert_eq!(exp(-0.0), 1.0);
+        assert_eq!(exp(f32::MIN), 0.0);
+        assert!(exp(f32::MAX).is_finite());
+        assert_eq!(expm1(0.0), 0.0);
+        assert_eq!(expm1(1e-30), 1e-30);
+        assert_eq!(expm1(f32::MIN), -1.0);
+        assert_eq!(expm1_over_x(0.0), 1.0);
+        assert_eq!(expm1_over_x(1e-40), 1.0);
+        assert_eq!(expm1_over_x(-1e30), 1e-30);
+        assert_eq!(erf(0.0), 0.0);
+        assert_eq!(erf(f32::MAX), 1.0);
+        assert_eq!(erfc(0.0), 1.0);
+        assert_eq!(erfc(f32::MAX), 0.0);
+        assert_eq!(erfc(f32::MIN), 2.0);
+        assert_eq!(erf_integral(0.0), 0.0);
+        assert!(erf_integral(f32::MAX).is_finite());
+    }
+}
