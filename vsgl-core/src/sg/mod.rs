@@ -4,7 +4,9 @@
 //! 0 to `f32::MAX`; above [`SHARPNESS_MAX`] it counts as [`SHARPNESS_MAX`]. Directions are unit vectors, and cosines
 //! lie in [-1, 1]. Results are finite and not negative (logarithms aside).
 
+pub mod asg;
 pub mod cosine;
+pub mod glossy;
 pub mod hemisphere;
 pub mod lobe;
 pub mod polar;
