@@ -1,1 +1,5 @@
-//! Reflectance.
+//! Reflectance: Fresnel, microfacet distributions and the glTF material model.
+
+pub mod fresnel;
+pub mod ggx;
+pub mod gltf;
