@@ -1,1 +1,123 @@
-//! The CPU backend of vsgl: loops over the texts of vsgl-core, on all cores.
+//! The CPU backend of vsgl: loops over the texts of `vsgl-core`, on all cores.
+//!
+//! Work is cut into pieces of fixed size, and sums over them are taken in a fixed order, so that a picture has the same
+//! bits for any number of threads.
+
+mod phase;
+
+use std::sync::Arc;
+use vsgl_core::backend::{Backend, Senders};
+use vsgl_core::data::{Columns, GBuffer, Image, Pdf, Radiance, Rsm, SceneData, Vsgls};
+use vsgl_core::plan::{ClusterPlan, GBufferPlan, PdfPlan, RsmPlan, ShadePlan};
+use vsgl_core::render::{Observer, View};
+use vsgl_core::scene::Light;
+use vsgl_core::{Error, Result};
+
+pub use phase::block;
+
+/// Renders on the processor's cores. Resources are shared host memory.
+#[derive(Debug)]
+pub struct CpuBackend {
+    pool: rayon::ThreadPool,
+}
+
+impl CpuBackend {
+    /// Most threads.
+    pub const THREADS_MAX: usize = 1024;
+
+    /// A backend with its own threads; 0 takes one for each core.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] if there are more than [`CpuBackend::THREADS_MAX`], or the system refuses them.
+    pub fn new(threads: usize) -> Result<Self> {
+        let remedy = format!("give 0 for all cores, or at most {}", Self::THREADS_MAX);
+        if threads > Self::THREADS_MAX {
+            return Err(Error::setting("threads", threads.to_string(), remedy));
+        }
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        pool.map(|pool| Self { pool })
+            .map_err(|e| Error::setting("threads", e.to_string(), remedy))
+    }
+
+    /// Number of threads at work.
+    pub fn threads(&self) -> usize {
+        self.pool.current_num_threads()
+    }
+}
+
+impl Backend for CpuBackend {
+    type Res<T: Columns> = Arc<T>;
+
+    fn name(&self) -> &'static str {
+        "cpu"
+    }
+
+    fn upload<T: Columns>(&self, value: T) -> Result<Arc<T>> {
+        Ok(Arc::new(value))
+    }
+
+    fn download<T: Columns>(&self, resource: &Arc<T>) -> Result<T> {
+        Ok(T::clone(resource))
+    }
+
+    fn gbuffer(
+        &self,
+        scene: &Arc<SceneData>,
+        view: &View,
+        plan: &GBufferPlan,
+    ) -> Result<Arc<GBuffer>> {
+        Ok(Arc::new(
+            self.pool.install(|| phase::gbuffer::run(scene, view, plan)),
+        ))
+    }
+
+    fn rsm(&self, scene: &Arc<SceneData>, lights: &[Light], plan: &RsmPlan) -> Result<Arc<Rsm>> {
+        Ok(Arc::new(
+            self.pool.install(|| phase::rsm::run(scene, lights, plan)),
+        ))
+    }
+
+    fn pdf(&self, rsm: &Arc<Rsm>, plan: &PdfPlan) -> Result<Arc<Pdf>> {
+        Ok(Arc::new(self.pool.install(|| phase::pdf::run(rsm, plan))))
+    }
+
+    fn cluster(
+        &self,
+        scene: &Arc<SceneData>,
+        rsm: &Arc<Rsm>,
+        pdf: Option<&Arc<Pdf>>,
+        plan: &ClusterPlan,
+    ) -> Result<Arc<Vsgls>> {
+        Ok(Arc::new(self.pool.install(|| {
+            phase::cluster::run(scene, rsm, pdf.map(|p| &**p), plan)
+        })))
+    }
+
+    fn shade(
+        &self,
+        scene: &Arc<SceneData>,
+        gbuffer: &Arc<GBuffer>,
+        view: &View,
+        lights: &[Light],
+        senders: Senders<'_, Self>,
+        plan: &ShadePlan,
+        observer: &dyn Observer,
+    ) -> Result<Arc<Radiance>> {
+        let radiance = self
+            .pool
+            .install(|| phase::shade::run(scene, gbuffer, view, lights, &senders, plan, observer));
+        radiance.map(Arc::new)
+    }
+
+    fn resolve(
+        &self,
+        gbuffer: &Arc<GBuffer>,
+        radiance: &Arc<Radiance>,
+        view: &View,
+    ) -> Result<Arc<Image>> {
+        Ok(Arc::new(
+            self.pool
+                .install(|| phase::resolve::run(gbuffer, radiance, view)),
+        ))
+    }
+}

@@ -17,6 +17,11 @@ columns! {
         target: Target,
         /// The texel that `target` was taken from, an index into the columns of the RSM.
         texel: u32,
+        /// Exact partition: the cluster of each texel of the RSM, `u32::MAX` for none. Empty otherwise.
+        label: u32,
+        /// Filtered kernels: map, column and row of the centre, side of the square that has the kernel's share of the
+        /// density were it spread evenly, in texels. Empty otherwise.
+        kernel: [f32; 4],
     }
 }
 

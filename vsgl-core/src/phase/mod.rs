@@ -1,1 +1,15 @@
 //! The text of each phase for one element: one texel, one cluster, one pixel against one light.
+//!
+//! Backends loop over these functions, or repeat them word for word in their own language.
+
+pub mod cluster;
+pub mod direct;
+pub mod filtered;
+pub mod gbuffer;
+pub mod partition;
+pub mod pdf;
+pub mod resolve;
+pub mod rsm;
+pub mod shade;
+pub mod surface;
+pub mod texture;

@@ -9,6 +9,7 @@ pub mod facts;
 pub mod gltf;
 mod light;
 mod material;
+mod prepare;
 pub mod samples;
 
 pub use camera::Camera;

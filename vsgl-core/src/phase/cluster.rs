@@ -1,0 +1,403 @@
+//! Clusters of virtual point lights: their sums, and the virtual spherical Gaussian lights that stand for them.
+//!
+//! Weights are luminances of reflected flux. Lambert and specular part are kept apart, each with its own position.
+
+use super::surface::geometric_normal;
+use crate::data::{
+    DiffuseVsgl, MapRecord, NO_TRIANGLE, Rsm, SceneData, SpecularVsgl, Target, Vsgls,
+};
+use crate::math::moments::Moments;
+use crate::math::vec::{luminance, normalize, reflect};
+use crate::plan::ClusterPlan;
+use crate::settings::{Emission, SharpnessFit, Variance};
+use crate::sg::{cosine, lobe, vmf};
+use glam::Vec3;
+
+/// Sums over the texels of a cluster. Every field adds up, or merges without cancellation.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Sum {
+    /// The Lambert part.
+    pub diffuse: Part,
+    /// The specular part; zero without glossy senders.
+    pub specular: Part,
+    /// Flux reflected by the Lambert part [W].
+    pub power: Vec3,
+    /// Arriving flux times `F0` [W].
+    pub f0: Vec3,
+    /// Arriving flux times `F90` [W].
+    pub f90: Vec3,
+    /// Weighted dielectric reflectances of the Lambert part, at normal and grazing incidence.
+    pub dielectric: [f32; 2],
+    /// Weighted square of `alpha`.
+    pub alpha2: f32,
+    /// Mirrored directions of the light, by specular weight.
+    pub mirror: Moments,
+    /// Mirrored directions, each shortened by the lobe of its surface, by specular weight.
+    pub lobe: Vec3,
+}
+
+/// Where one part of a cluster's light starts, and which way its surfaces face.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Part {
+    /// Sum of weights [W].
+    pub weight: f32,
+    /// Positions [m].
+    pub position: Moments,
+    /// Unit normals.
+    pub normal: Moments,
+    /// Weighted texel area [W m²].
+    pub area: f32,
+}
+
+impl Part {
+    fn texel(weight: f32, position: Vec3, normal: Vec3, area: f32) -> Self {
+        let (position, normal) = (Moments::point(position), Moments::point(normal));
+        Self {
+            weight,
+            position,
+            normal,
+            area: weight * area,
+        }
+    }
+
+    fn merge(self, other: Self) -> Self {
+        Self {
+            weight: self.weight + other.weight,
+            position: self
+                .position
+                .merge(self.weight, other.position, other.weight),
+            normal: self.normal.merge(self.weight, other.normal, other.weight),
+            area: self.area + other.area,
+        }
+    }
+
+    fn scaled(self, factor: f32) -> Self {
+        Self {
+            weight: self.weight * factor,
+            position: self.position.scaled(factor),
+            normal: self.normal.scaled(factor),
+            area: self.area * factor,
+        }
+    }
+
+    /// Mean normal: unit direction, and mean length with its complement.
+    fn facing(&self) -> (Vec3, vmf::MeanLength) {
+        facing(&self.normal, self.weight)
+    }
+}
+
+/// Direction and mean length of unit vectors from their moments. `1 − r² = spread/weight` for unit vectors, which keeps
+/// the digits of nearly equal ones.
+fn facing(directions: &Moments, weight: f32) -> (Vec3, vmf::MeanLength) {
+    let scatter = (directions.spread / weight.max(f32::MIN_POSITIVE)).clamp(0.0, 1.0);
+    let length = (1.0 - scatter).sqrt();
+    (
+        normalize(directions.mean),
+        vmf::MeanLength {
+            length,
+            complement: scatter / (1.0 + length),
+        },
+    )
+}
+
+impl Sum {
+    /// The sum of one texel.
+    pub fn texel(rsm: &Rsm, index: usize, plan: &ClusterPlan) -> Self {
+        let (diffuse, specular) = rsm.weights(index);
+        let [x, y, z, area] = rsm.position[index];
+        let position = Vec3::new(x, y, z);
+        let [nx, ny, nz, f90_dielectric] = rsm.normal[index];
+        let normal = Vec3::new(nx, ny, nz);
+        let [r, g, b, f0_dielectric] = rsm.diffuse[index];
+        let mut sum = Self {
+            diffuse: Part::texel(diffuse, position, normal, area),
+            power: Vec3::new(r, g, b),
+            dielectric: [diffuse * f0_dielectric, diffuse * f90_dielectric],
+            ..Self::default()
+        };
+        if plan.glossy {
+            let [r, g, b, alpha] = rsm.specular[index];
+            let [r90, g90, b90, _] = rsm.grazing[index];
+            let light = normalize(Vec3::from_array(rsm.map_of(index).position) - position);
+            let mirror = normalize(reflect(light, normal));
+            sum.specular = Part::texel(specular, position, normal, area);
+            sum.f0 = Vec3::new(r, g, b);
+            sum.f90 = Vec3::new(r90, g90, b90);
+            sum.alpha2 = specular * (alpha * alpha);
+            sum.mirror = Moments::point(mirror);
+            sum.lobe = mirror * (specular * lobe_length(alpha, mirror.dot(normal), plan.sharpness));
+        }
+        sum
+    }
+
+    /// The sum of two sets of texels together.
+    pub fn merge(self, other: Self) -> Self {
+        Self {
+            diffuse: self.diffuse.merge(other.diffuse),
+            specular: self.specular.merge(other.specular),
+            power: self.power + other.power,
+            f0: self.f0 + other.f0,
+            f90: self.f90 + other.f90,
+            dielectric: [
+                self.dielectric[0] + other.dielectric[0],
+                self.dielectric[1] + other.dielectric[1],
+            ],
+            alpha2: self.alpha2 + other.alpha2,
+            mirror: self
+                .mirror
+                .merge(self.specular.weight, other.mirror, other.specular.weight),
+            lobe: self.lobe + other.lobe,
+        }
+    }
+
+    /// The same texels, each with its flux multiplied.
+    pub fn scaled(self, factor: f32) -> Self {
+        Self {
+            diffuse: self.diffuse.scaled(factor),
+            specular: self.specular.scaled(factor),
+            power: self.power * factor,
+            f0: self.f0 * factor,
+            f90: self.f90 * factor,
+            dielectric: self.dielectric.map(|d| d * factor),
+            alpha2: self.alpha2 * factor,
+            mirror: self.mirror.scaled(factor),
+            lobe: self.lobe * factor,
+        }
+    }
+
+    /// Merges a list of texels as a binary tree over their order, so that rounding does not grow with the list.
+    pub fn of(rsm: &Rsm, texels: &[u32], plan: &ClusterPlan) -> Self {
+        match texels {
+            [] => Self::default(),
+            [one] => Self::texel(rsm, *one as usize, plan),
+            _ => {
+                let (first, second) = texels.split_at(texels.len() / 2);
+                Self::of(rsm, first, plan).merge(Self::of(rsm, second, plan))
+            }
+        }
+    }
+}
+
+/// Mean length of the lobe that a surface of roughness `alpha` reflects at `cosine` to its normal.
+///
+/// Source: Tokuyoshi 2016, "Modified Filtered Importance Sampling for Virtual Spherical Gaussian Lights", supplement,
+/// section A.1: a half-vector lobe of sharpness `2/alpha²`, a quarter of that over the cosine after reflection.
+fn lobe_length(alpha: f32, cosine: f32, fit: SharpnessFit) -> f32 {
+    let sharpness = 0.5 / ((alpha * alpha) * cosine.abs().max(1e-4));
+    match fit {
+        SharpnessFit::Banerjee => vmf::mean_banerjee_2005(sharpness).length,
+        SharpnessFit::Toksvig => vmf::mean_toksvig_2005(sharpness).length,
+    }
+}
+
+fn sharpness_of(mean: vmf::MeanLength, fit: SharpnessFit) -> f32 {
+    match fit {
+        SharpnessFit::Banerjee => vmf::sharpness_banerjee_2005(mean),
+        SharpnessFit::Toksvig => vmf::sharpness_toksvig_2005(mean),
+    }
+}
+
+/// Variance of a part along one axis [m²], with the extent of its texels added.
+fn variance_of(part: &Part, convention: Variance) -> f32 {
+    let weight = part.weight.max(f32::MIN_POSITIVE);
+    let trace = part.position.spread / weight;
+    let texel = part.area / weight * (1.0 / 12.0);
+    match convention {
+        Variance::PerAxis => 0.5 * trace + texel,
+        Variance::Trace => trace + texel,
+    }
+}
+
+/// The lights that stand for a cluster under the light of `map`.
+pub fn lights(sum: &Sum, map: &MapRecord, plan: &ClusterPlan) -> (DiffuseVsgl, SpecularVsgl) {
+    match plan.emission {
+        Emission::Cosine => (
+            diffuse_cosine(sum, map, plan),
+            specular_cosine(sum, map, plan),
+        ),
+        Emission::Sg => lights_sg(sum, map, plan),
+    }
+}
+
+fn to_light(map: &MapRecord, position: Vec3) -> [f32; 3] {
+    normalize(Vec3::from_array(map.position) - position).to_array()
+}
+
+fn diffuse_cosine(sum: &Sum, map: &MapRecord, plan: &ClusterPlan) -> DiffuseVsgl {
+    let part = &sum.diffuse;
+    if part.weight <= 0.0 {
+        return DiffuseVsgl {
+            axis: [0.0, 0.0, 1.0],
+            light: [0.0, 0.0, 1.0],
+            ..DiffuseVsgl::default()
+        };
+    }
+    let (axis, mean) = part.facing();
+    let square = mean.length * mean.length;
+    DiffuseVsgl {
+        position: part.position.mean.to_array(),
+        variance: variance_of(part, plan.variance),
+        axis: axis.to_array(),
+        sharpness: sharpness_of(mean, plan.sharpness),
+        intensity: (sum.power * std::f32::consts::FRAC_1_PI).to_array(),
+        flatness: square * square,
+        light: to_light(map, part.position.mean),
+        complement: mean.complement,
+        f0: sum.dielectric[0] / part.weight,
+        f90: sum.dielectric[1] / part.weight,
+        padding: [0.0; 2],
+    }
+}
+
+fn specular_cosine(sum: &Sum, map: &MapRecord, plan: &ClusterPlan) -> SpecularVsgl {
+    let part = &sum.specular;
+    if part.weight <= 0.0 {
+        let z = [0.0, 0.0, 1.0];
+        return SpecularVsgl {
+            axis: z,
+            mirror: z,
+            light: z,
+            alpha: 1.0,
+            ..SpecularVsgl::default()
+        };
+    }
+    let (axis, mean) = part.facing();
+    let (mirror, mean_mirror) = facing(&sum.mirror, part.weight);
+    let lobe = vmf::MeanLength::from_length(sum.lobe.length() / part.weight);
+    let square = mean.length * mean.length;
+    SpecularVsgl {
+        position: part.position.mean.to_array(),
+        variance: variance_of(part, plan.variance),
+        axis: axis.to_array(),
+        sharpness: sharpness_of(mean, plan.sharpness),
+        mirror: mirror.to_array(),
+        sharpness_mirror: sharpness_of(mean_mirror, plan.sharpness),
+        light: to_light(map, part.position.mean),
+        sharpness_lobe: sharpness_of(lobe, plan.sharpness),
+        f0: sum.f0.to_array(),
+        alpha: (sum.alpha2 / part.weight).sqrt(),
+        f90: sum.f90.to_array(),
+        flatness: square * square,
+        complement: mean.complement,
+        complement_mirror: mean_mirror.complement,
+        padding: [0.0; 2],
+    }
+}
+
+/// One spherical Gaussian for each part, both at the common mean position.
+///
+/// Source: Tokuyoshi 2016, supplement, sections A and B.
+fn lights_sg(sum: &Sum, map: &MapRecord, plan: &ClusterPlan) -> (DiffuseVsgl, SpecularVsgl) {
+    let both = sum.diffuse.merge(sum.specular);
+    let position = both.position.mean.to_array();
+    let variance = variance_of(&both, plan.variance);
+    let light = to_light(map, both.position.mean);
+
+    let lambert_length = match plan.sharpness {
+        SharpnessFit::Banerjee => vmf::mean_banerjee_2005(cosine::COSINE_SHARPNESS).length,
+        SharpnessFit::Toksvig => vmf::mean_toksvig_2005(cosine::COSINE_SHARPNESS_2016).length,
+    };
+    let (axis, mean) = sum.diffuse.facing();
+    let mean = vmf::MeanLength::from_length(mean.length * lambert_length);
+    let sharpness = sharpness_of(mean, plan.sharpness);
+    let diffuse = DiffuseVsgl {
+        position,
+        variance,
+        axis: axis.to_array(),
+        sharpness,
+        intensity: (sum.power / lobe::integral(sharpness)).to_array(),
+        light,
+        ..DiffuseVsgl::default()
+    };
+
+    let weight = sum.specular.weight.max(f32::MIN_POSITIVE);
+    let mean = vmf::MeanLength::from_length(sum.lobe.length() / weight);
+    let sharpness = sharpness_of(mean, plan.sharpness);
+    // The flux that the specular part reflects in the mean, spread like F0.
+    let specular = SpecularVsgl {
+        position,
+        variance,
+        mirror: normalize(sum.lobe).to_array(),
+        sharpness_lobe: sharpness,
+        f0: (specular_power(sum) / lobe::integral(sharpness)).to_array(),
+        axis: sum.specular.facing().0.to_array(),
+        light,
+        alpha: (sum.alpha2 / weight).sqrt(),
+        ..SpecularVsgl::default()
+    };
+    (diffuse, specular)
+}
+
+/// Flux reflected by the specular part [W]: the colour of `F0`, or of `F90` where that is black, with the luminance that
+/// is the weight of the part.
+fn specular_power(sum: &Sum) -> Vec3 {
+    let color = if luminance(sum.f0) > 0.0 {
+        sum.f0
+    } else {
+        sum.f90
+    };
+    color * (sum.specular.weight / luminance(color).max(f32::MIN_POSITIVE))
+}
+
+impl Vsgls {
+    /// Columns from lights and the texels that stand for them.
+    pub fn from_lights(
+        lights: &[(DiffuseVsgl, SpecularVsgl)],
+        glossy: bool,
+        target: Vec<Target>,
+        texel: Vec<u32>,
+    ) -> Self {
+        Self {
+            count: lights.len() as u32,
+            diffuse: lights.iter().map(|l| l.0).collect(),
+            specular: if glossy {
+                lights.iter().map(|l| l.1).collect()
+            } else {
+                Vec::new()
+            },
+            target,
+            texel,
+            label: Vec::new(),
+            kernel: Vec::new(),
+        }
+    }
+}
+
+/// The point that stands for a cluster in visibility: the surface at one of its texels.
+pub fn target(scene: &SceneData, rsm: &Rsm, texel: u32) -> Target {
+    let [x, y, z, _] = rsm.position[texel as usize];
+    let position = Vec3::new(x, y, z);
+    let light = Vec3::from_array(rsm.map_of(texel as usize).position) - position;
+    let triangle = rsm.triangle[texel as usize];
+    let normal = if triangle == NO_TRIANGLE {
+        Vec3::Z
+    } else {
+        geometric_normal(scene, triangle, light)
+    };
+    Target {
+        position: position.to_array(),
+        normal: normal.to_array(),
+        ..Target::default()
+    }
+}
+
+/// The texel of a list at which the running sum of weights passes the share `u` of the whole, 0 ≤ u < 1.
+///
+/// Never one without weight, unless all are; 0 for an empty list.
+pub fn draw(weights: impl Iterator<Item = (u32, f32)> + Clone, u: f32) -> u32 {
+    let total: f32 = weights.clone().map(|(_, w)| w).sum();
+    let wanted = u * total;
+    let mut passed = 0.0;
+    let mut drawn = 0;
+    for (texel, weight) in weights {
+        let before = passed;
+        passed += weight;
+        // The last with weight is kept where rounding lets the sum fall short.
+        drawn = if weight > 0.0 && before <= wanted {
+            texel
+        } else {
+            drawn
+        };
+    }
+    drawn
+}

@@ -1,0 +1,322 @@
+//! One receiver against one virtual light.
+//!
+//! In two steps: what arrives at the receiver ([`Incoming`], by the form of emission), and what the receiver reflects
+//! of it (a factor for the Lambert part, one for the specular part). All functions here are reached by lane loops.
+
+use crate::brdf::fresnel::{half_cosine, schlick_weight};
+use crate::brdf::ggx;
+use crate::data::{DiffuseVsgl, SpecularVsgl};
+use crate::math::elementary::{exp, expm1_over_x};
+use crate::math::vec::normalize;
+use crate::sg::glossy::GlossyView;
+use crate::sg::lobe::SHARPNESS_MAX;
+use crate::sg::{asg, cosine, lobe, vmf};
+use glam::Vec3;
+
+/// Least positional variance [m²]: keeps its inverse finite.
+const VARIANCE_MIN: f32 = 1e-30;
+
+/// A lobe of light as it arrives at a receiver.
+#[derive(Clone, Copy, Debug)]
+pub struct Incoming {
+    /// Unit direction that it comes from.
+    pub axis: Vec3,
+    /// Its sharpness.
+    pub sharpness: f32,
+    /// Its sharpness towards the receiver's normal, which is what the receiver's horizon sees: a flat cluster has less
+    /// extent along its own normal than across.
+    pub horizon: f32,
+    /// Irradiance that it brings to a surface that faces it [W/m²].
+    pub strength: Vec3,
+}
+
+/// A receiver, without its colours: they are factors of the sums over all lights.
+#[derive(Clone, Copy, Debug)]
+pub struct Receiver {
+    /// Position [m].
+    pub position: Vec3,
+    /// Unit normal, turned to the eye.
+    pub normal: Vec3,
+    /// Unit direction to the eye.
+    pub view: Vec3,
+    /// Dielectric reflectance at normal incidence, of the Lambert part.
+    pub f0: f32,
+    /// Dielectric reflectance at grazing incidence, of the Lambert part.
+    pub f90: f32,
+    /// GGX roughness.
+    pub alpha: f32,
+}
+
+/// The way from a receiver to a cluster.
+#[derive(Clone, Copy, Debug)]
+struct Path {
+    /// Unit direction from the receiver to the cluster's mean.
+    direction: Vec3,
+    /// Sharpness of the cluster's extent as seen from the receiver.
+    sharpness: f32,
+    /// `A(sharpness)/(2π variance)`: what a radiant intensity is multiplied by to give the irradiance; tends to one
+    /// over the squared distance and stays finite inside the cluster [1/m²].
+    spread: f32,
+}
+
+#[inline(always)]
+fn path(position: Vec3, variance: f32, receiver: Vec3) -> Path {
+    let apart = position - receiver;
+    let distance2 = apart.dot(apart);
+    let variance = variance
+        .max(distance2 * (1.0 / SHARPNESS_MAX))
+        .max(VARIANCE_MIN);
+    let sharpness = distance2 / variance;
+    let spread = 2.0 * expm1_over_x(-2.0 * sharpness) / variance;
+    Path {
+        direction: normalize(apart),
+        sharpness,
+        spread,
+    }
+}
+
+/// Sharpness towards a direction at `cosine` to the cluster's normal, from that across it.
+///
+/// The variance along a direction `a` of a flat cluster with normal `ν` is `σ² (1 − r⁴ (a·ν)²)`.
+#[inline(always)]
+fn sharpness_along(sharpness: f32, flatness: f32, cosine: f32) -> f32 {
+    let share = 1.0 - flatness * (cosine * cosine);
+    (sharpness / share.max(1e-12)).min(SHARPNESS_MAX)
+}
+
+/// Share that a dielectric's Lambert part keeps: one minus its reflectance, at a half-vector cosine.
+#[inline(always)]
+fn lambert_share(f0: f32, f90: f32, cosine: f32) -> f32 {
+    1.0 - (f0 + (f90 - f0) * schlick_weight(cosine))
+}
+
+#[inline(always)]
+fn mean_length(complement: f32) -> vmf::MeanLength {
+    vmf::MeanLength {
+        length: 1.0 - complement,
+        complement,
+    }
+}
+
+/// What the Lambert part of a cluster sends: the clamped cosine averaged over its normals and its extent.
+///
+/// Ours, see `docs/derivations.md`.
+#[inline(always)]
+pub fn incoming_diffuse(light: &DiffuseVsgl, receiver: Vec3, normal: Vec3) -> Incoming {
+    let path = path(Vec3::from_array(light.position), light.variance, receiver);
+    let axis = Vec3::from_array(light.axis);
+    let outgoing = -path.direction;
+    let blur = sharpness_along(path.sharpness, light.flatness, 1.0);
+    let sharpness = vmf::convolve_with(mean_length(light.complement), blur);
+    let mean_cosine = cosine::mean_clamped_cosine(sharpness, outgoing.dot(axis));
+    let half = half_cosine(Vec3::from_array(light.light), outgoing);
+    let factor = mean_cosine * lambert_share(light.f0, light.f90, half) * path.spread;
+    Incoming {
+        axis: path.direction,
+        sharpness: path.sharpness,
+        horizon: sharpness_along(path.sharpness, light.flatness, normal.dot(axis)),
+        strength: Vec3::from_array(light.intensity) * factor,
+    }
+}
+
+/// What the specular part of a cluster sends: GGX under the lobe of directions that the light comes from, blurred by
+/// the cluster's extent. The sender is shaded like a receiver whose eye is the light.
+///
+/// Ours, see `docs/derivations.md`. `sender` is [`sender_view`] of the light.
+#[inline(always)]
+pub fn incoming_specular(
+    light: &SpecularVsgl,
+    sender: &GlossyView,
+    receiver: Vec3,
+    normal: Vec3,
+) -> Incoming {
+    let path = path(Vec3::from_array(light.position), light.variance, receiver);
+    let axis = Vec3::from_array(light.axis);
+    let outgoing = -path.direction;
+    let across = vmf::mean(path.sharpness);
+    let along = sharpness_along(path.sharpness, light.flatness, 1.0);
+    let lobe = vmf::sharpness(mean_length(light.complement_mirror).convolve(across));
+    let horizon = vmf::convolve_with(mean_length(light.complement), along);
+    let reflected = sender.masked(outgoing, lobe, horizon) * path.spread;
+    let grazing = schlick_weight(half_cosine(Vec3::from_array(light.light), outgoing));
+    let (f0, f90) = (Vec3::from_array(light.f0), Vec3::from_array(light.f90));
+    let arriving = lobe::product(
+        -Vec3::from_array(light.mirror),
+        light.sharpness_lobe,
+        path.direction,
+        path.sharpness,
+    );
+    Incoming {
+        axis: arriving.axis,
+        sharpness: arriving.sharpness,
+        horizon: sharpness_along(arriving.sharpness, light.flatness, normal.dot(axis)),
+        strength: (f0 + (f90 - f0) * grazing) * reflected,
+    }
+}
+
+/// The sender of [`incoming_specular`], once a light.
+#[inline(always)]
+pub fn sender_view(light: &SpecularVsgl) -> GlossyView {
+    GlossyView::new(
+        Vec3::from_array(light.light),
+        Vec3::from_array(light.axis),
+        light.alpha,
+    )
+}
+
+/// What one spherical Gaussian of radiant intensity sends.
+///
+/// Source: Tokuyoshi 2016, supplement, section C.1 (product of the lobe with the Gaussian of the cluster's extent).
+#[inline(always)]
+pub fn incoming_sg(
+    position: [f32; 3],
+    variance: f32,
+    axis: [f32; 3],
+    sharpness: f32,
+    intensity: [f32; 3],
+    receiver: Vec3,
+) -> Incoming {
+    let path = path(Vec3::from_array(position), variance, receiver);
+    let product = lobe::product(
+        -Vec3::from_array(axis),
+        sharpness,
+        path.direction,
+        path.sharpness,
+    );
+    // spread = A(sharpness)/(2π variance), of the extent alone.
+    let factor = exp(product.log_amplitude) * lobe::integral(product.sharpness)
+        / lobe::integral(path.sharpness);
+    Incoming {
+        axis: product.axis,
+        sharpness: product.sharpness,
+        horizon: product.sharpness,
+        strength: Vec3::from_array(intensity) * (factor * path.spread),
+    }
+}
+
+/// A virtual point light: one texel of a reflective shadow map.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct PointSender {
+    /// Position [m].
+    pub position: Vec3,
+    /// Variance of the texel's extent along one axis [m²].
+    pub variance: f32,
+    /// Unit normal, turned to the light.
+    pub normal: Vec3,
+    /// Unit direction to the light.
+    pub light: Vec3,
+    /// Flux reflected by the Lambert part [W].
+    pub diffuse: Vec3,
+    /// Dielectric reflectance of the Lambert part at normal incidence.
+    pub dielectric_f0: f32,
+    /// Dielectric reflectance of the Lambert part at grazing incidence.
+    pub dielectric_f90: f32,
+    /// Arriving flux times `F0` [W].
+    pub f0: Vec3,
+    /// Arriving flux times `F90` [W].
+    pub f90: Vec3,
+    /// GGX roughness.
+    pub alpha: f32,
+}
+
+/// What a virtual point light sends: its reflectance as it is, in the direction of the receiver.
+///
+/// Its texel's extent keeps the inverse square of the distance finite.
+/// Source: Keller 1997, "Instant Radiosity".
+#[inline(always)]
+pub fn incoming_point(light: &PointSender, receiver: Vec3) -> Incoming {
+    let path = path(light.position, light.variance, receiver);
+    let outgoing = -path.direction;
+    let facing = outgoing.dot(light.normal).max(0.0) * path.spread;
+    let half = half_cosine(light.light, outgoing);
+    let lambert = lambert_share(light.dielectric_f0, light.dielectric_f90, half)
+        * std::f32::consts::FRAC_1_PI;
+    let specular = ggx::reflectance(light.light, outgoing, light.normal, light.alpha);
+    let fresnel = light.f0 + (light.f90 - light.f0) * schlick_weight(half);
+    Incoming {
+        axis: path.direction,
+        sharpness: SHARPNESS_MAX,
+        horizon: SHARPNESS_MAX,
+        strength: (light.diffuse * lambert + fresnel * specular) * facing,
+    }
+}
+
+/// Share of what arrives that meets the receiver's Lambert part, the mean clamped cosine left out: what its dielectric
+/// layer lets through.
+#[inline(always)]
+fn through(incoming: &Incoming, receiver: &Receiver) -> f32 {
+    lambert_share(
+        receiver.f0,
+        receiver.f90,
+        half_cosine(receiver.view, incoming.axis),
+    )
+}
+
+/// Factor of the Lambert part by our refit of the 2024 form. Multiply by strength and albedo over π.
+#[inline(always)]
+pub fn lambert_v13(incoming: &Incoming, receiver: &Receiver) -> f32 {
+    let mean = cosine::mean_clamped_cosine(incoming.horizon, incoming.axis.dot(receiver.normal));
+    mean * through(incoming, receiver)
+}
+
+/// Factor of the Lambert part by the form of Tokuyoshi et al. 2024.
+#[inline(always)]
+pub fn lambert_2024(incoming: &Incoming, receiver: &Receiver) -> f32 {
+    let k = incoming.horizon;
+    let mean = cosine::interpolated_2024(k, incoming.axis.dot(receiver.normal)) / lobe::integral(k);
+    mean * through(incoming, receiver)
+}
+
+/// Factor of the Lambert part with the cosine at the lobe's axis, exact for a point light.
+#[inline(always)]
+pub fn lambert_constant(incoming: &Incoming, receiver: &Receiver) -> f32 {
+    incoming.axis.dot(receiver.normal).max(0.0) * through(incoming, receiver)
+}
+
+/// Factor of the specular part by NDF filtering with masking. Multiply by strength and Fresnel reflectance.
+#[inline(always)]
+pub fn glossy_masked(incoming: &Incoming, surface: &GlossyView) -> f32 {
+    surface.masked(incoming.axis, incoming.sharpness, incoming.horizon)
+}
+
+/// Factor of the specular part by NDF filtering as published in 2024.
+#[inline(always)]
+pub fn glossy_2024(incoming: &Incoming, surface: &GlossyView) -> f32 {
+    surface.filtered_2024(incoming.axis, incoming.sharpness)
+}
+
+/// Factor of the specular part by an anisotropic spherical Gaussian.
+///
+/// Source: Tokuyoshi 2016, supplement, section C.2; Xu et al. 2013, "Anisotropic Spherical Gaussians".
+#[inline(always)]
+pub fn glossy_asg_2013(incoming: &Incoming, receiver: &Receiver) -> f32 {
+    let alpha2 = receiver.alpha * receiver.alpha;
+    let lobe = asg::reflection_lobe(receiver.view, receiver.normal, 1.0 / alpha2);
+    let integral = lobe.product_integral(incoming.axis, incoming.sharpness)
+        / lobe::integral(incoming.sharpness);
+    let (v, o) = (
+        receiver.view.dot(receiver.normal),
+        incoming.axis.dot(receiver.normal),
+    );
+    let rest =
+        ggx::visibility(v.max(0.0), o.max(0.0), receiver.alpha) / (std::f32::consts::PI * alpha2);
+    integral * rest * o.max(0.0)
+}
+
+/// Factor of the specular part for a light of one direction: GGX as it is.
+#[inline(always)]
+pub fn glossy_point(incoming: &Incoming, receiver: &Receiver) -> f32 {
+    let cosine = incoming.axis.dot(receiver.normal).max(0.0);
+    ggx::reflectance(
+        receiver.view,
+        incoming.axis,
+        receiver.normal,
+        receiver.alpha,
+    ) * cosine
+}
+
+/// Weight of `F90` against `F0` in the Fresnel reflectance of what arrives.
+#[inline(always)]
+pub fn fresnel_weight(incoming: &Incoming, receiver: &Receiver) -> f32 {
+    schlick_weight(half_cosine(receiver.view, incoming.axis))
+}

@@ -1,0 +1,307 @@
+//! Sixteen receivers against one virtual light at a time: the texts of `vsgl_core::phase::shade` over lanes.
+//!
+//! The functions here hold loops over lanes and nothing else, so that the compiler turns each text into vector
+//! instructions of the machine at hand, with the bits of the scalar text.
+
+use glam::Vec3;
+use vsgl_core::data::{DiffuseVsgl, SpecularVsgl};
+use vsgl_core::phase::shade::{self, Incoming, PointSender, Receiver};
+use vsgl_core::plan::ShadePlan;
+use vsgl_core::settings::{DiffuseForm, Emission, GlossyForm};
+use vsgl_core::sg::glossy::GlossyView;
+
+/// Receivers that are shaded together.
+pub const LANES: usize = 16;
+
+/// A vector a lane, component by component.
+pub type Vec3Lanes = [[f32; LANES]; 3];
+
+#[inline(always)]
+fn get(v: &Vec3Lanes, lane: usize) -> Vec3 {
+    Vec3::new(v[0][lane], v[1][lane], v[2][lane])
+}
+
+#[inline(always)]
+fn set(v: &mut Vec3Lanes, lane: usize, value: Vec3) {
+    v[0][lane] = value.x;
+    v[1][lane] = value.y;
+    v[2][lane] = value.z;
+}
+
+/// Sixteen receivers.
+#[derive(Clone, Copy, Debug)]
+pub struct Receivers {
+    position: Vec3Lanes,
+    normal: Vec3Lanes,
+    view: Vec3Lanes,
+    f0: [f32; LANES],
+    f90: [f32; LANES],
+    alpha: [f32; LANES],
+}
+
+impl Receivers {
+    /// From single receivers.
+    pub fn new(receivers: &[Receiver; LANES]) -> Self {
+        let zero = [[0.0; LANES]; 3];
+        let mut all = Self {
+            position: zero,
+            normal: zero,
+            view: zero,
+            f0: [0.0; LANES],
+            f90: [0.0; LANES],
+            alpha: [0.0; LANES],
+        };
+        for (lane, r) in receivers.iter().enumerate() {
+            set(&mut all.position, lane, r.position);
+            set(&mut all.normal, lane, r.normal);
+            set(&mut all.view, lane, r.view);
+            all.f0[lane] = r.f0;
+            all.f90[lane] = r.f90;
+            all.alpha[lane] = r.alpha;
+        }
+        all
+    }
+
+    #[inline(always)]
+    fn lane(&self, lane: usize) -> Receiver {
+        Receiver {
+            position: get(&self.position, lane),
+            normal: get(&self.normal, lane),
+            view: get(&self.view, lane),
+            f0: self.f0[lane],
+            f90: self.f90[lane],
+            alpha: self.alpha[lane],
+        }
+    }
+}
+
+/// What arrives at sixteen receivers.
+#[derive(Clone, Copy, Debug)]
+struct Arriving {
+    axis: Vec3Lanes,
+    sharpness: [f32; LANES],
+    horizon: [f32; LANES],
+    strength: Vec3Lanes,
+}
+
+impl Arriving {
+    #[inline(always)]
+    fn of(incoming: impl Fn(usize) -> Incoming) -> Self {
+        let zero = [[0.0; LANES]; 3];
+        let mut all = Self {
+            axis: zero,
+            sharpness: [0.0; LANES],
+            horizon: [0.0; LANES],
+            strength: zero,
+        };
+        for lane in 0..LANES {
+            let one = incoming(lane);
+            set(&mut all.axis, lane, one.axis);
+            all.sharpness[lane] = one.sharpness;
+            all.horizon[lane] = one.horizon;
+            set(&mut all.strength, lane, one.strength);
+        }
+        all
+    }
+
+    #[inline(always)]
+    fn lane(&self, lane: usize) -> Incoming {
+        Incoming {
+            axis: get(&self.axis, lane),
+            sharpness: self.sharpness[lane],
+            horizon: self.horizon[lane],
+            strength: get(&self.strength, lane),
+        }
+    }
+}
+
+/// Sums over lights at sixteen receivers, without the receivers' colours.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Sums {
+    /// For the Lambert part: multiply by albedo over π [W/m²].
+    pub diffuse: Vec3Lanes,
+    /// For the specular part: multiply by `F0` [W/(m² sr)].
+    pub near: Vec3Lanes,
+    /// For the specular part: multiply by `F90` [W/(m² sr)].
+    pub grazing: Vec3Lanes,
+}
+
+impl Sums {
+    /// Adds where a lane is open.
+    #[inline(always)]
+    pub fn add_open(&mut self, other: &Self, open: &[f32; LANES]) {
+        let pairs = [
+            (&mut self.diffuse, &other.diffuse),
+            (&mut self.near, &other.near),
+            (&mut self.grazing, &other.grazing),
+        ];
+        for (sum, more) in pairs {
+            for channel in 0..3 {
+                for lane in 0..LANES {
+                    sum[channel][lane] += more[channel][lane] * open[lane];
+                }
+            }
+        }
+    }
+
+    /// Whether a lane holds any light.
+    #[inline(always)]
+    pub fn lit(&self, lane: usize) -> bool {
+        let all = |v: &Vec3Lanes| v[0][lane] + v[1][lane] + v[2][lane];
+        all(&self.diffuse) + (all(&self.near) + all(&self.grazing)) > 0.0
+    }
+}
+
+/// The forms of a point light: exact reflectance instead of integrals.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Integral {
+    Lobe(DiffuseForm, GlossyForm),
+    Point,
+}
+
+/// Adds what receivers reflect of what arrives.
+#[inline(always)]
+fn reflect(
+    sums: &mut Sums,
+    arriving: &Arriving,
+    receivers: &Receivers,
+    integral: Integral,
+    glossy: bool,
+) {
+    let mut lambert = [0.0; LANES];
+    macro_rules! lanes {
+        ($out:ident, $lane:ident => $text:expr) => {
+            for $lane in 0..LANES {
+                $out[$lane] = $text;
+            }
+        };
+    }
+    match integral {
+        Integral::Lobe(DiffuseForm::V13, _) => {
+            lanes!(lambert, i => shade::lambert_v13(&arriving.lane(i), &receivers.lane(i)));
+        }
+        Integral::Lobe(DiffuseForm::Tokuyoshi2024, _) => {
+            lanes!(lambert, i => shade::lambert_2024(&arriving.lane(i), &receivers.lane(i)));
+        }
+        Integral::Lobe(DiffuseForm::Constant, _) | Integral::Point => {
+            lanes!(lambert, i => shade::lambert_constant(&arriving.lane(i), &receivers.lane(i)));
+        }
+    }
+    for channel in 0..3 {
+        for lane in 0..LANES {
+            sums.diffuse[channel][lane] += arriving.strength[channel][lane] * lambert[lane];
+        }
+    }
+    if !glossy {
+        return;
+    }
+    let mut specular = [0.0; LANES];
+    let view = |i: usize| {
+        let r = receivers.lane(i);
+        GlossyView::new(r.view, r.normal, r.alpha)
+    };
+    match integral {
+        Integral::Lobe(_, GlossyForm::NdfFilter) => {
+            lanes!(specular, i => shade::glossy_masked(&arriving.lane(i), &view(i)));
+        }
+        Integral::Lobe(_, GlossyForm::NdfFilter2024) => {
+            lanes!(specular, i => shade::glossy_2024(&arriving.lane(i), &view(i)));
+        }
+        Integral::Lobe(_, GlossyForm::Asg2013) => {
+            lanes!(specular, i => shade::glossy_asg_2013(&arriving.lane(i), &receivers.lane(i)));
+        }
+        Integral::Point => {
+            lanes!(specular, i => shade::glossy_point(&arriving.lane(i), &receivers.lane(i)));
+        }
+    }
+    let mut weight = [0.0; LANES];
+    lanes!(weight, i => shade::fresnel_weight(&arriving.lane(i), &receivers.lane(i)));
+    for channel in 0..3 {
+        for lane in 0..LANES {
+            let reflected = arriving.strength[channel][lane] * specular[lane];
+            let grazing = reflected * weight[lane];
+            sums.near[channel][lane] += reflected - grazing;
+            sums.grazing[channel][lane] += grazing;
+        }
+    }
+}
+
+/// What receivers reflect of one cluster; `specular` only with glossy senders.
+#[inline(always)]
+pub fn vsgl(
+    diffuse: &DiffuseVsgl,
+    specular: Option<&SpecularVsgl>,
+    receivers: &Receivers,
+    plan: &ShadePlan,
+) -> Sums {
+    let mut sums = Sums::default();
+    let integral = Integral::Lobe(plan.diffuse, plan.glossy);
+    let point = |i: usize| (receivers.lane(i).position, receivers.lane(i).normal);
+    let arriving = match plan.emission {
+        Emission::Cosine => Arriving::of(|i| {
+            let (position, normal) = point(i);
+            shade::incoming_diffuse(diffuse, position, normal)
+        }),
+        Emission::Sg => Arriving::of(|i| {
+            let d = diffuse;
+            shade::incoming_sg(
+                d.position,
+                d.variance,
+                d.axis,
+                d.sharpness,
+                d.intensity,
+                point(i).0,
+            )
+        }),
+    };
+    reflect(
+        &mut sums,
+        &arriving,
+        receivers,
+        integral,
+        plan.glossy_receivers,
+    );
+    let Some(s) = specular else { return sums };
+    let arriving = match plan.emission {
+        Emission::Cosine => {
+            let sender = shade::sender_view(s);
+            Arriving::of(|i| {
+                let (position, normal) = point(i);
+                shade::incoming_specular(s, &sender, position, normal)
+            })
+        }
+        Emission::Sg => Arriving::of(|i| {
+            shade::incoming_sg(
+                s.position,
+                s.variance,
+                s.mirror,
+                s.sharpness_lobe,
+                s.f0,
+                point(i).0,
+            )
+        }),
+    };
+    reflect(
+        &mut sums,
+        &arriving,
+        receivers,
+        integral,
+        plan.glossy_receivers,
+    );
+    sums
+}
+
+/// What receivers reflect of one virtual point light.
+#[inline(always)]
+pub fn vpl(light: &PointSender, receivers: &Receivers, plan: &ShadePlan) -> Sums {
+    let mut sums = Sums::default();
+    let arriving = Arriving::of(|i| shade::incoming_point(light, receivers.lane(i).position));
+    reflect(
+        &mut sums,
+        &arriving,
+        receivers,
+        Integral::Point,
+        plan.glossy_receivers,
+    );
+    sums
+}

@@ -1,0 +1,53 @@
+//! From texels to virtual spherical Gaussian lights.
+
+use super::{filtered, partition};
+use rayon::prelude::*;
+use vsgl_core::data::{MapRecord, Pdf, Rsm, SceneData, Vsgls};
+use vsgl_core::phase::cluster::{Sum, lights, target};
+use vsgl_core::plan::ClusterPlan;
+use vsgl_core::settings::Clustering;
+
+/// A cluster before it becomes a light.
+#[derive(Clone, Debug)]
+pub(crate) struct Cluster {
+    pub(crate) sum: Sum,
+    /// The texel that stands for it.
+    pub(crate) texel: u32,
+}
+
+pub(crate) fn run(scene: &SceneData, rsm: &Rsm, pdf: Option<&Pdf>, plan: &ClusterPlan) -> Vsgls {
+    match (plan.method, pdf) {
+        (Clustering::Filtered, Some(pdf)) => {
+            let (clusters, kernel) = filtered::run(rsm, pdf, plan);
+            Vsgls {
+                kernel,
+                ..gather(scene, rsm, &clusters, plan)
+            }
+        }
+        _ => {
+            let (clusters, label) = partition::run(rsm, plan);
+            Vsgls {
+                label,
+                ..gather(scene, rsm, &clusters, plan)
+            }
+        }
+    }
+}
+
+fn gather(scene: &SceneData, rsm: &Rsm, clusters: &[Cluster], plan: &ClusterPlan) -> Vsgls {
+    let map = |c: &Cluster| -> &MapRecord { rsm.map_of(c.texel as usize) };
+    let made: Vec<_> = clusters
+        .par_iter()
+        .map(|c| lights(&c.sum, map(c), plan))
+        .collect();
+    let targets = clusters
+        .iter()
+        .map(|c| target(scene, rsm, c.texel))
+        .collect();
+    Vsgls::from_lights(
+        &made,
+        plan.glossy,
+        targets,
+        clusters.iter().map(|c| c.texel).collect(),
+    )
+}

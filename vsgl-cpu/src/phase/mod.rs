@@ -1,0 +1,11 @@
+//! One file a phase: only loops. What is computed for one element stands under the same name in `vsgl_core::phase`.
+
+pub mod block;
+pub(crate) mod cluster;
+pub(crate) mod filtered;
+pub(crate) mod gbuffer;
+pub(crate) mod partition;
+pub(crate) mod pdf;
+pub(crate) mod resolve;
+pub(crate) mod rsm;
+pub(crate) mod shade;

@@ -1,0 +1,321 @@
+//! Light to the eye, all samples, in blocks of sixteen.
+
+use super::block::{self, LANES, Receivers, Sums};
+use crate::CpuBackend;
+use glam::Vec3;
+use multiversion::multiversion;
+use rayon::prelude::*;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use vsgl_core::backend::Senders;
+use vsgl_core::data::{GBuffer, NO_TRIANGLE, Radiance, Rsm, SceneData, Target, Vsgls};
+use vsgl_core::geom::any_hit_block;
+use vsgl_core::math::vec::normalize;
+use vsgl_core::phase::direct;
+use vsgl_core::phase::shade::{PointSender, Receiver};
+use vsgl_core::phase::surface::{geometric_normal, lift};
+use vsgl_core::plan::ShadePlan;
+use vsgl_core::render::{Observer, Phase, View};
+use vsgl_core::scene::Light;
+use vsgl_core::settings::OcclusionMethod;
+use vsgl_core::{Error, Result};
+
+/// Blocks between two reports to the observer.
+const BLOCKS_A_REPORT: usize = 64;
+
+pub(crate) fn run(
+    scene: &SceneData,
+    gbuffer: &GBuffer,
+    view: &View,
+    lights: &[Light],
+    senders: &Senders<'_, CpuBackend>,
+    plan: &ShadePlan,
+    observer: &dyn Observer,
+) -> Result<Radiance> {
+    let points = if let Senders::Vpls(rsm) = senders {
+        point_senders(rsm, plan)
+    } else {
+        Vec::new()
+    };
+    let indirect = match senders {
+        Senders::None => Indirect::None,
+        Senders::Vsgls(vsgls) => Indirect::Vsgls(vsgls),
+        Senders::Vpls(rsm) => Indirect::Vpls(&points, rsm),
+    };
+    let shader = Shader {
+        scene,
+        gbuffer,
+        eye: view.camera.eye,
+        lights,
+        indirect,
+        plan,
+    };
+    let blocks = gbuffer.triangle.len().div_ceil(LANES);
+    let done = AtomicUsize::new(0);
+    let shade = |index: usize| {
+        if observer.cancelled() {
+            return Err(Error::Cancelled(Phase::Shade));
+        }
+        let block = shader.block(index * LANES);
+        let done = done.fetch_add(1, Ordering::Relaxed) + 1;
+        if done % BLOCKS_A_REPORT == 0 {
+            observer.advanced(Phase::Shade, done as f32 / blocks as f32);
+        }
+        Ok(block)
+    };
+    let blocks: Vec<Block> = (0..blocks)
+        .into_par_iter()
+        .map(shade)
+        .collect::<Result<_>>()?;
+    let count = gbuffer.triangle.len();
+    let column = |f: fn(&Block) -> &[[f32; 3]; LANES]| -> Vec<[f32; 3]> {
+        blocks
+            .iter()
+            .flat_map(|b| f(b).iter().copied())
+            .take(count)
+            .collect()
+    };
+    let bounce = plan.bounce;
+    Ok(Radiance {
+        width: gbuffer.width,
+        height: gbuffer.height,
+        direct: column(|b| &b.direct),
+        indirect_diffuse: if bounce {
+            column(|b| &b.indirect_diffuse)
+        } else {
+            Vec::new()
+        },
+        indirect_glossy: if bounce && plan.glossy_receivers {
+            column(|b| &b.indirect_glossy)
+        } else {
+            Vec::new()
+        },
+    })
+}
+
+/// Texels with flux as point lights.
+fn point_senders(rsm: &Rsm, plan: &ShadePlan) -> Vec<(u32, PointSender)> {
+    let sender = |texel: usize| {
+        let (diffuse, specular) = rsm.weights(texel);
+        if diffuse + specular <= 0.0 {
+            return None;
+        }
+        let [x, y, z, area] = rsm.position[texel];
+        let [nx, ny, nz, dielectric_f90] = rsm.normal[texel];
+        let [r, g, b, dielectric_f0] = rsm.diffuse[texel];
+        let position = Vec3::new(x, y, z);
+        let mut point = PointSender {
+            position,
+            variance: area * (1.0 / 12.0),
+            normal: Vec3::new(nx, ny, nz),
+            light: normalize(Vec3::from_array(rsm.map_of(texel).position) - position),
+            diffuse: Vec3::new(r, g, b),
+            dielectric_f0,
+            dielectric_f90,
+            alpha: 1.0,
+            ..PointSender::default()
+        };
+        if plan.glossy_senders {
+            let [r, g, b, alpha] = rsm.specular[texel];
+            let [r90, g90, b90, _] = rsm.grazing[texel];
+            point = PointSender {
+                f0: Vec3::new(r, g, b),
+                f90: Vec3::new(r90, g90, b90),
+                alpha,
+                ..point
+            };
+        }
+        Some((texel as u32, point))
+    };
+    (0..rsm.position.len())
+        .into_par_iter()
+        .filter_map(sender)
+        .collect()
+}
+
+/// Light to the eye from sixteen samples.
+#[derive(Clone, Copy, Debug, Default)]
+struct Block {
+    direct: [[f32; 3]; LANES],
+    indirect_diffuse: [[f32; 3]; LANES],
+    indirect_glossy: [[f32; 3]; LANES],
+}
+
+enum Indirect<'a> {
+    None,
+    Vsgls(&'a Vsgls),
+    Vpls(&'a [(u32, PointSender)], &'a Rsm),
+}
+
+struct Shader<'a> {
+    scene: &'a SceneData,
+    gbuffer: &'a GBuffer,
+    eye: Vec3,
+    lights: &'a [Light],
+    indirect: Indirect<'a>,
+    plan: &'a ShadePlan,
+}
+
+/// Where shadow rays of a block start, and which lanes hold a surface.
+struct Origins {
+    position: [[f32; LANES]; 3],
+    hit: [bool; LANES],
+}
+
+impl Shader<'_> {
+    fn block(&self, start: usize) -> Block {
+        let mut block = Block::default();
+        let count = LANES.min(self.gbuffer.triangle.len() - start);
+        let hit: [bool; LANES] =
+            std::array::from_fn(|i| i < count && self.gbuffer.triangle[start + i] != NO_TRIANGLE);
+        let Some(some) = hit.iter().position(|&h| h) else {
+            return block;
+        };
+        // Lanes without a surface repeat one that has: the same work, thrown away.
+        let index = |lane: usize| start + if hit[lane] { lane } else { some };
+        let single: [Receiver; LANES] = std::array::from_fn(|lane| self.receiver(index(lane)));
+        let mut origins = Origins {
+            position: [[0.0; LANES]; 3],
+            hit,
+        };
+        for lane in 0..LANES {
+            let receiver = &single[lane];
+            let triangle = self.gbuffer.triangle[index(lane)];
+            let facing = geometric_normal(self.scene, triangle, self.eye - receiver.position);
+            let origin = receiver.position + facing * lift(self.scene.lift(), receiver.position);
+            for channel in 0..3 {
+                origins.position[channel][lane] = origin[channel];
+            }
+            if hit[lane] {
+                block.direct[lane] = self.direct(index(lane), receiver, facing).to_array();
+            }
+        }
+        let receivers = Receivers::new(&single);
+        let sums = match &self.indirect {
+            Indirect::None => return block,
+            Indirect::Vsgls(vsgls) => sum_vsgls(self.scene, vsgls, &receivers, &origins, self.plan),
+            Indirect::Vpls(points, rsm) => {
+                sum_vpls(self.scene, points, rsm, &receivers, &origins, self.plan)
+            }
+        };
+        for lane in (0..LANES).filter(|&lane| hit[lane]) {
+            let i = index(lane);
+            let albedo = self.gbuffer.diffuse[i];
+            let f0 = self.gbuffer.specular.get(i).copied().unwrap_or_default();
+            let f90 = self.gbuffer.grazing.get(i).copied().unwrap_or_default();
+            for channel in 0..3 {
+                let over_pi = albedo[channel] * std::f32::consts::FRAC_1_PI;
+                block.indirect_diffuse[lane][channel] = sums.diffuse[channel][lane] * over_pi;
+                let glossy =
+                    sums.near[channel][lane] * f0[channel] + sums.grazing[channel][lane] * f90;
+                block.indirect_glossy[lane][channel] = glossy;
+            }
+        }
+        block
+    }
+
+    fn receiver(&self, index: usize) -> Receiver {
+        let [x, y, z, _] = self.gbuffer.position[index];
+        let [nx, ny, nz, f90] = self.gbuffer.normal[index];
+        let position = Vec3::new(x, y, z);
+        Receiver {
+            position,
+            normal: Vec3::new(nx, ny, nz),
+            view: normalize(self.eye - position),
+            f0: self.gbuffer.diffuse[index][3],
+            f90,
+            alpha: self.gbuffer.specular.get(index).map_or(1.0, |s| s[3]),
+        }
+    }
+
+    fn direct(&self, index: usize, receiver: &Receiver, facing: Vec3) -> Vec3 {
+        let xyz = |v: [f32; 4]| Vec3::new(v[0], v[1], v[2]);
+        let albedo = xyz(self.gbuffer.diffuse[index]);
+        let f0 = self
+            .gbuffer
+            .specular
+            .get(index)
+            .map_or(Vec3::ZERO, |&v| xyz(v));
+        let f90 = self.gbuffer.grazing.get(index).copied().unwrap_or_default();
+        let one = |light| direct::radiance(self.scene, light, receiver, facing, albedo, f0, f90);
+        self.lights
+            .iter()
+            .map(one)
+            .fold(Vec3::ZERO, |sum, more| sum + more)
+    }
+}
+
+/// 1 for each lane that light reaches from a target, else 0. Lanes without light are not asked.
+#[inline(always)]
+fn open(scene: &SceneData, target: &Target, origins: &Origins, sums: &Sums) -> [f32; LANES] {
+    let lift = lift(scene.lift(), Vec3::from_array(target.position));
+    let end = Vec3::from_array(target.position) + Vec3::from_array(target.normal) * lift;
+    let mut direction = [[0.0; LANES]; 3];
+    let mut asked = [false; LANES];
+    for lane in 0..LANES {
+        for channel in 0..3 {
+            direction[channel][lane] = end[channel] - origins.position[channel][lane];
+        }
+        asked[lane] = origins.hit[lane] & sums.lit(lane);
+    }
+    let blocked = any_hit_block(
+        &scene.node,
+        &scene.corner,
+        &origins.position,
+        &direction,
+        &asked,
+    );
+    blocked.map(|b| 1.0 - b as f32)
+}
+
+#[multiversion(targets("x86_64+avx2+fma", "aarch64+neon"))]
+fn sum_vsgls(
+    scene: &SceneData,
+    vsgls: &Vsgls,
+    receivers: &Receivers,
+    origins: &Origins,
+    plan: &ShadePlan,
+) -> Sums {
+    let mut total = Sums::default();
+    let receivers = *receivers;
+    for (j, diffuse) in vsgls.diffuse.iter().enumerate() {
+        let specular = if plan.glossy_senders {
+            vsgls.specular.get(j)
+        } else {
+            None
+        };
+        let sums = block::vsgl(diffuse, specular, &receivers, plan);
+        let open = match plan.occlusion {
+            OcclusionMethod::None => [1.0; LANES],
+            OcclusionMethod::Rays => open(scene, &vsgls.target[j], origins, &sums),
+        };
+        total.add_open(&sums, &open);
+    }
+    total
+}
+
+#[multiversion(targets("x86_64+avx2+fma", "aarch64+neon"))]
+fn sum_vpls(
+    scene: &SceneData,
+    points: &[(u32, PointSender)],
+    rsm: &Rsm,
+    receivers: &Receivers,
+    origins: &Origins,
+    plan: &ShadePlan,
+) -> Sums {
+    let mut total = Sums::default();
+    let receivers = *receivers;
+    for (texel, point) in points {
+        let sums = block::vpl(point, &receivers, plan);
+        let open = match plan.occlusion {
+            OcclusionMethod::None => [1.0; LANES],
+            OcclusionMethod::Rays => open(
+                scene,
+                &vsgl_core::phase::cluster::target(scene, rsm, *texel),
+                origins,
+                &sums,
+            ),
+        };
+        total.add_open(&sums, &open);
+    }
+    total
+}
