@@ -1,0 +1,5 @@
+//! The program `vsgl`.
+
+fn main() -> std::process::ExitCode {
+    vsgl_cli::main()
+}

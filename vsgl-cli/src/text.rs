@@ -1,0 +1,95 @@
+//! Text for people: standard streams that may be closed, numbers of a readable length, quoted commands.
+
+use crate::exit::{Failure, Result};
+use std::io::{ErrorKind, Write};
+
+/// Writes to standard output. A reader that has gone (`| head`) is no failure.
+///
+/// # Errors
+/// [`Failure::Output`] if the stream fails otherwise.
+pub(crate) fn print(text: &str) -> Result<()> {
+    let mut stdout = std::io::stdout().lock();
+    let written = stdout
+        .write_all(text.as_bytes())
+        .and_then(|()| stdout.flush());
+    match written {
+        Err(e) if e.kind() != ErrorKind::BrokenPipe => {
+            Err(Failure::Output(format!("standard output: {e}")))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Prints one JSON document on standard output.
+///
+/// # Errors
+/// As [`print`].
+pub(crate) fn print_json(document: &serde_json::Value) -> Result<()> {
+    print(&format!("{document:#}\n"))
+}
+
+/// Writes a line to standard error; if that is closed there is nobody to tell.
+pub(crate) fn warn(line: &str) {
+    let _ = writeln!(std::io::stderr(), "{line}");
+}
+
+/// A number with five significant digits.
+pub(crate) fn number(value: f64) -> String {
+    let magnitude = value.abs();
+    if value == 0.0 || !value.is_finite() {
+        return value.to_string();
+    }
+    if !(1e-4..1e6).contains(&magnitude) {
+        return format!("{value:.4e}");
+    }
+    let decimals = 4 - magnitude.log10().floor() as i32;
+    format!("{value:.*}", decimals.max(0) as usize)
+}
+
+/// A finite number for JSON, which has no others.
+pub(crate) fn json_number(value: f64) -> serde_json::Value {
+    serde_json::Number::from_f64(value).map_or(serde_json::Value::Null, Into::into)
+}
+
+/// A command line that a shell reads as these words.
+pub(crate) fn shell(words: &[String]) -> String {
+    let quote = |word: &String| {
+        let plain = |c: char| c.is_ascii_alphanumeric() || "_-+=./:,@%".contains(c);
+        if !word.is_empty() && word.chars().all(plain) {
+            word.clone()
+        } else {
+            format!("'{}'", word.replace('\'', "'\\''"))
+        }
+    };
+    words.iter().map(quote).collect::<Vec<_>>().join(" ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_five_digits() {
+        for (value, text) in [
+            (0.0, "0"),
+            (1.0, "1.0000"),
+            (-123.456_78, "-123.46"),
+            (0.000_123_456, "0.00012346"),
+            (99_999.0, "99999"),
+            (1e-9, "1.0000e-9"),
+            (3.2e7, "3.2000e7"),
+            (f64::INFINITY, "inf"),
+        ] {
+            assert_eq!(number(value), text);
+        }
+    }
+
+    #[test]
+    fn words_are_quoted_where_a_shell_would_split_them() {
+        let words = ["vsgl", "a b", "it's", "", "--spot=1,2,3:0,0,0:9:30"].map(String::from);
+        assert_eq!(
+            shell(&words),
+            r"vsgl 'a b' 'it'\''s' '' --spot=1,2,3:0,0,0:9:30"
+        );
+    }
+}
