@@ -1,0 +1,133 @@
+//! The JSON of a file as typed values.
+
+use super::fault::{Fault, Result, printable, quoted};
+use super::limits::Limits;
+use super::warnings::Warnings;
+use gltf::json::{Root, Value, deserialize};
+
+/// Extensions that are read, or that ask nothing of a reader.
+const SUPPORTED: &[&str] = &[
+    "KHR_lights_punctual",
+    "KHR_materials_ior",
+    "KHR_materials_specular",
+    "KHR_mesh_quantization",
+    "KHR_texture_transform",
+];
+
+/// A parsed file.
+pub(super) struct Document {
+    pub(super) root: Root,
+    /// The same untyped, for numbers that the typed form rounds to f32.
+    pub(super) value: Value,
+}
+
+impl Document {
+    /// Parses, and refuses versions and required extensions that are not known.
+    pub(super) fn parse(json: &[u8], limits: &Limits, warnings: &mut Warnings) -> Result<Self> {
+        check_size(json, limits)?;
+        let value: Value = deserialize::from_slice(json).map_err(|e| malformed(&e))?;
+        check_version(&value)?;
+        let root: Root = deserialize::from_slice(json).map_err(|e| malformed(&e))?;
+        check_required(&root.extensions_required)?;
+        for name in &root.extensions_used {
+            if !SUPPORTED.contains(&name.as_str()) {
+                warnings.add(format!("extension {} is ignored", quoted(name)));
+            }
+        }
+        if !root.animations.is_empty() {
+            warnings.add("animations are ignored: the scene is shown at rest");
+        }
+        Ok(Self { root, value })
+    }
+}
+
+/// Element `index` of a list of the file. `list` is the list's name, `place` where the index stands.
+pub(super) fn lookup<'a, T>(
+    items: &'a [T],
+    list: &str,
+    index: usize,
+    place: impl FnOnce() -> String,
+) -> Result<&'a T> {
+    items.get(index).ok_or_else(|| {
+        Fault::new(
+            place(),
+            format!("{list}[{index}] does not exist: there are {}", items.len()),
+            "the file is broken; export it again",
+        )
+    })
+}
+
+/// Refuses JSON that would take far more memory parsed than written.
+fn check_size(json: &[u8], limits: &Limits) -> Result<()> {
+    let (mut objects, mut values) = (0u64, 0u64);
+    let (mut in_string, mut escaped) = (false, false);
+    for &byte in json {
+        if in_string {
+            in_string = escaped || byte != b'"';
+            escaped = !escaped && byte == b'\\';
+        } else {
+            in_string = byte == b'"';
+            objects += u64::from(byte == b'{');
+            values += u64::from(byte == b',' || byte == b'[');
+        }
+    }
+    // An object holds a handful of values on average, however large the scene.
+    if objects > limits.objects || values / 16 > limits.objects {
+        return Err(Fault::new(
+            "JSON",
+            format!("more than {} objects", limits.objects),
+            "split the scene, or raise the limit `objects`",
+        ));
+    }
+    Ok(())
+}
+
+fn malformed(error: &gltf::json::Error) -> Fault {
+    let position = format!("line {} column {}", error.line(), error.column());
+    let text = error.to_string();
+    let problem = text
+        .strip_suffix(&format!(" at {position}"))
+        .unwrap_or(&text);
+    Fault::new(
+        format!("JSON, {position}"),
+        printable(problem),
+        "a glTF 2.0 file is expected; export it again",
+    )
+}
+
+fn check_version(value: &Value) -> Result<()> {
+    let asset = &value["asset"];
+    let version = asset["version"]
+        .as_str()
+        .ok_or_else(|| Fault::new("asset.version", "is missing", "a glTF 2.0 file is expected"))?;
+    let least = asset["minVersion"].as_str().unwrap_or("2.0");
+    if !version.starts_with("2.") || least != "2.0" {
+        return Err(Fault::new(
+            "asset",
+            format!(
+                "version {}, readable from {}",
+                quoted(version),
+                quoted(least)
+            ),
+            "export it as glTF 2.0",
+        ));
+    }
+    Ok(())
+}
+
+fn check_required(names: &[String]) -> Result<()> {
+    let unknown: Vec<String> = names
+        .iter()
+        .filter(|name| !SUPPORTED.contains(&name.as_str()))
+        .take(8)
+        .map(|name| quoted(name))
+        .collect();
+    if unknown.is_empty() {
+        return Ok(());
+    }
+    Err(Fault::new(
+        "extensionsRequired",
+        format!("{} not supported", unknown.join(", ")),
+        "export the scene without",
+    ))
+}

@@ -1,0 +1,173 @@
+//! Images of textures.
+
+use super::buffers::Buffers;
+use super::document::Document;
+use super::fault::{Fault, Result, printable, quoted};
+use super::files::Files;
+use super::limits::Limits;
+use crate::scene::Texture;
+use image::{ImageDecoder, ImageFormat, ImageReader};
+use std::borrow::Cow;
+use std::io::Cursor;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
+
+/// A JPEG file with more scans than this is built to keep a decoder busy; ordinary ones have about ten.
+const SCANS_MAX: usize = 100;
+
+/// An image that is known to be of a format and size that can be decoded.
+struct Encoded<'a> {
+    /// Index in the file.
+    index: usize,
+    bytes: Cow<'a, [u8]>,
+    format: ImageFormat,
+    /// Size that its header names.
+    texels: u64,
+}
+
+/// Decodes the images with these indices, in this order, on as many threads as there are cores.
+pub(super) fn decode(
+    document: &Document,
+    buffers: &Buffers<'_>,
+    files: &Files,
+    indices: &[usize],
+    limits: &Limits,
+) -> Result<Vec<Texture>> {
+    let mut left = limits.texels;
+    let mut images = Vec::with_capacity(indices.len());
+    for &index in indices {
+        let image = encoded(document, buffers, files, index)?;
+        left = left.checked_sub(image.texels).ok_or_else(|| {
+            Fault::new(
+                format!("images[{index}]"),
+                format!(
+                    "with it, all images hold more than {} texels",
+                    limits.texels
+                ),
+                "use smaller images, or raise the limit `texels`",
+            )
+        })?;
+        images.push(image);
+    }
+    let next = AtomicUsize::new(0);
+    let threads = thread::available_parallelism().map_or(1, usize::from);
+    let take = || {
+        let i = next.fetch_add(1, Ordering::Relaxed);
+        images.get(i).map(|image| (i, image))
+    };
+    let work = || -> Vec<_> {
+        std::iter::from_fn(take)
+            .map(|(i, image)| (i, image.decode()))
+            .collect()
+    };
+    let mut textures: Vec<(usize, Result<Texture>)> = thread::scope(|scope| {
+        let workers: Vec<_> = (1..threads.min(images.len()))
+            .map(|_| scope.spawn(work))
+            .collect();
+        let mut all = work();
+        for worker in workers {
+            match worker.join() {
+                Ok(done) => all.extend(done),
+                Err(panic) => std::panic::resume_unwind(panic),
+            }
+        }
+        all
+    });
+    // The order of the list, whichever thread was first; so is the error that is told.
+    textures.sort_by_key(|&(i, _)| i);
+    textures.into_iter().map(|(_, texture)| texture).collect()
+}
+
+/// The bytes of an image, with format and size from its header.
+fn encoded<'a>(
+    document: &Document,
+    buffers: &'a Buffers<'_>,
+    files: &Files,
+    index: usize,
+) -> Result<Encoded<'a>> {
+    let image = &document.root.images[index];
+    let place = format!("images[{index}]");
+    let bytes = match (&image.uri, image.buffer_view) {
+        (Some(uri), _) => Cow::Owned(files.resolve(uri, &place)?),
+        (None, Some(view)) => {
+            Cow::Borrowed(buffers.view(view, || format!("{place}.bufferView"))?.0)
+        }
+        (None, None) => {
+            return Err(Fault::new(
+                place,
+                "has neither an address nor a buffer view",
+                "the file is broken; export it again",
+            ));
+        }
+    };
+    let format = format(&bytes).ok_or_else(|| {
+        let name = image.uri.as_deref().filter(|uri| !uri.starts_with("data:"));
+        Fault::new(
+            &place,
+            format!(
+                "{} is neither PNG nor JPEG",
+                name.map_or("it".into(), quoted)
+            ),
+            "convert it to PNG or JPEG",
+        )
+    })?;
+    let (width, height) = ImageReader::with_format(Cursor::new(&bytes[..]), format)
+        .into_dimensions()
+        .map_err(|e| undecodable(index, &e.to_string()))?;
+    if format == ImageFormat::Jpeg
+        && bytes.windows(2).filter(|w| w == b"\xff\xda").count() > SCANS_MAX
+    {
+        return Err(undecodable(
+            index,
+            "more scans than any honest JPEG file has",
+        ));
+    }
+    Ok(Encoded {
+        index,
+        bytes,
+        format,
+        texels: u64::from(width) * u64::from(height),
+    })
+}
+
+impl Encoded<'_> {
+    fn decode(&self) -> Result<Texture> {
+        let broken = |e: image::ImageError| undecodable(self.index, &e.to_string());
+        let mut reader = ImageReader::with_format(Cursor::new(&self.bytes[..]), self.format);
+        let mut limits = image::Limits::default();
+        // 16 bits in four channels, and as much again to work with.
+        limits.max_alloc = Some(self.texels * 16 + (16 << 20));
+        reader.limits(limits);
+        let decoder = reader.into_decoder().map_err(broken)?;
+        let (width, height) = decoder.dimensions();
+        let image = image::DynamicImage::from_decoder(decoder).map_err(broken)?;
+        let texels = image.into_rgba8().into_raw().as_chunks::<4>().0.to_vec();
+        if texels.is_empty() {
+            return Err(undecodable(self.index, "no texels"));
+        }
+        Ok(Texture {
+            width,
+            height,
+            texels,
+        })
+    }
+}
+
+/// By the first bytes: the type that files name is often wrong.
+fn format(bytes: &[u8]) -> Option<ImageFormat> {
+    if bytes.starts_with(b"\x89PNG\r\n\x1a\n") {
+        Some(ImageFormat::Png)
+    } else if bytes.starts_with(b"\xff\xd8\xff") {
+        Some(ImageFormat::Jpeg)
+    } else {
+        None
+    }
+}
+
+fn undecodable(index: usize, why: &str) -> Fault {
+    Fault::new(
+        format!("images[{index}]"),
+        format!("cannot be decoded: {}", printable(why)),
+        "save it again as PNG or JPEG",
+    )
+}

@@ -1,0 +1,127 @@
+//! Lights of `KHR_lights_punctual`.
+
+use super::document::{Document, lookup};
+use super::fault::{Fault, Result};
+use super::nodes::Placed;
+use super::warnings::Warnings;
+use crate::scene::{Light, SpotLight};
+use glam::DVec3;
+use gltf::json::extensions::scene::khr_lights_punctual::{self, Type};
+use gltf::json::validation::Checked;
+use std::f32::consts::FRAC_PI_2;
+
+/// Spots that the nodes hold. Other lights are left out with a warning.
+///
+/// The intensity [cd] is taken for [W/sr] as it stands.
+pub(super) fn collect(
+    document: &Document,
+    placed: &[Placed<'_>],
+    origin: DVec3,
+    warnings: &mut Warnings,
+) -> Result<Vec<Light>> {
+    let extensions = document.root.extensions.as_ref();
+    let list = extensions.and_then(|e| e.khr_lights_punctual.as_ref());
+    let list = list.map_or(&[][..], |l| &l.lights);
+    let mut lights = Vec::new();
+    for place in placed {
+        let extensions = place.node.extensions.as_ref();
+        let Some(reference) = extensions.and_then(|e| e.khr_lights_punctual.as_ref()) else {
+            continue;
+        };
+        let at = || {
+            format!(
+                "nodes[{}].extensions.KHR_lights_punctual.light",
+                place.index
+            )
+        };
+        let index = reference.light.value();
+        let light = lookup(list, "lights", index, at)?;
+        lights.extend(read(light, index, place, origin, warnings)?);
+    }
+    Ok(lights)
+}
+
+fn read(
+    light: &khr_lights_punctual::Light,
+    index: usize,
+    place: &Placed<'_>,
+    origin: DVec3,
+    warnings: &mut Warnings,
+) -> Result<Option<Light>> {
+    match light.type_ {
+        Checked::Valid(Type::Spot) => {}
+        Checked::Valid(Type::Point) => {
+            warnings.add("point lights are left out");
+            return Ok(None);
+        }
+        Checked::Valid(Type::Directional) => {
+            warnings.add("directional lights are left out");
+            return Ok(None);
+        }
+        Checked::Invalid => {
+            warnings.add("lights of unknown type are left out");
+            return Ok(None);
+        }
+    }
+    let here = format!("extensions.KHR_lights_punctual.lights[{index}]");
+    let intensity = light.color.map(|c| c * light.intensity);
+    if intensity.iter().any(|i| !i.is_finite() || *i < 0.0) {
+        return Err(Fault::new(
+            here,
+            format!("colour times intensity is {intensity:?}"),
+            "finite values of at least 0 are expected",
+        ));
+    }
+    if intensity == [0.0; 3] {
+        warnings.add("lights without intensity are left out");
+        return Ok(None);
+    }
+    let Some(axis) = place.world.transform_vector3(DVec3::NEG_Z).try_normalize() else {
+        warnings.add("lights scaled to nothing are left out");
+        return Ok(None);
+    };
+    if light.range.is_some() {
+        warnings.add("the range of lights is ignored: they reach everywhere");
+    }
+    let (inner, outer) = cone(light.spot.as_ref(), &here, warnings)?;
+    Ok(Some(Light::Spot(SpotLight {
+        position: (place.world.w_axis.truncate() - origin).as_vec3(),
+        axis: axis.as_vec3().normalize(),
+        intensity,
+        inner,
+        outer,
+    })))
+}
+
+/// Inner and outer half angle.
+fn cone(
+    spot: Option<&khr_lights_punctual::Spot>,
+    here: &str,
+    warnings: &mut Warnings,
+) -> Result<(f32, f32)> {
+    let Some(spot) = spot else {
+        return Err(Fault::new(
+            format!("{here}.spot"),
+            "is missing",
+            "a spot light needs its cone angles",
+        ));
+    };
+    let (inner, outer) = (spot.inner_cone_angle, spot.outer_cone_angle);
+    // A right angle, written with some digits, may come out a little larger.
+    let in_range = (0.0..=outer).contains(&inner) && outer > 0.0 && outer <= FRAC_PI_2 + 1e-4;
+    if !in_range {
+        return Err(Fault::new(
+            format!("{here}.spot"),
+            format!("inner cone angle {inner}, outer {outer}"),
+            "0 <= inner <= outer <= pi/2 is expected, and outer > 0",
+        ));
+    }
+    if outer > SpotLight::OUTER_MAX {
+        warnings.add(format!(
+            "cones of lights are narrowed to {:.0} degrees from the axis",
+            SpotLight::OUTER_MAX.to_degrees()
+        ));
+    }
+    let outer = outer.min(SpotLight::OUTER_MAX);
+    Ok((inner.min(outer), outer))
+}

@@ -1,0 +1,128 @@
+//! The tree of nodes, flattened.
+
+use super::document::{Document, lookup};
+use super::fault::{Fault, Result};
+use super::warnings::Warnings;
+use glam::{DMat4, DQuat, DVec3, DVec4};
+use gltf::json::{Node, Value};
+
+/// A node with its transform to the world.
+pub(super) struct Placed<'a> {
+    pub(super) index: usize,
+    pub(super) node: &'a Node,
+    pub(super) world: DMat4,
+}
+
+/// All nodes of the scene that hold anything, in the order of the file.
+pub(super) fn walk<'a>(document: &'a Document, warnings: &mut Warnings) -> Result<Vec<Placed<'a>>> {
+    let nodes = &document.root.nodes;
+    let mut seen = vec![false; nodes.len()];
+    let mut placed = Vec::new();
+    // A stack of our own: depth is the file's to choose.
+    let mut waiting: Vec<(usize, DMat4, String)> = roots(document, warnings)?;
+    while let Some((index, parent, place)) = waiting.pop() {
+        let node = lookup(nodes, "nodes", index, || place.clone())?;
+        if std::mem::replace(&mut seen[index], true) {
+            return Err(Fault::new(
+                place,
+                format!("nodes[{index}] is reached twice: nodes must form trees"),
+                "the file is broken; export it again",
+            ));
+        }
+        let world = parent * local(document, index)?;
+        if !world.is_finite() {
+            return Err(Fault::new(
+                format!("nodes[{index}]"),
+                "its transform, composed with those above it, is not finite",
+                "the file is broken; export it again",
+            ));
+        }
+        for child in node.children.iter().flatten() {
+            waiting.push((child.value(), world, format!("nodes[{index}].children")));
+        }
+        if node.skin.is_some() {
+            warnings.add("skins are ignored: meshes are shown unbent");
+        }
+        if node.mesh.is_some() || node.camera.is_some() || node.extensions.is_some() {
+            placed.push(Placed { index, node, world });
+        }
+    }
+    placed.sort_by_key(|p| p.index);
+    Ok(placed)
+}
+
+/// Where to begin: the default scene, else the first, else every node without a parent.
+fn roots(document: &Document, warnings: &mut Warnings) -> Result<Vec<(usize, DMat4, String)>> {
+    let root = &document.root;
+    let index = match root.scene {
+        Some(scene) => scene.value(),
+        None if !root.scenes.is_empty() => 0,
+        None => {
+            if !root.nodes.is_empty() {
+                warnings.add("the file has no scene: all nodes are shown");
+            }
+            return Ok(parentless(root.nodes.as_slice()));
+        }
+    };
+    let scene = lookup(&root.scenes, "scenes", index, || "scene".into())?;
+    if root.scenes.len() > 1 {
+        warnings.add(format!(
+            "scene {index} of {} is shown; the others are ignored",
+            root.scenes.len()
+        ));
+    }
+    let begin = |node: &gltf::json::Index<Node>| {
+        (
+            node.value(),
+            DMat4::IDENTITY,
+            format!("scenes[{index}].nodes"),
+        )
+    };
+    Ok(scene.nodes.iter().map(begin).collect())
+}
+
+fn parentless(nodes: &[Node]) -> Vec<(usize, DMat4, String)> {
+    let mut is_child = vec![false; nodes.len()];
+    for child in nodes.iter().flat_map(|n| n.children.iter().flatten()) {
+        if let Some(flag) = is_child.get_mut(child.value()) {
+            *flag = true;
+        }
+    }
+    (0..nodes.len())
+        .filter(|&i| !is_child[i])
+        .map(|i| (i, DMat4::IDENTITY, "nodes".into()))
+        .collect()
+}
+
+/// The transform of a node to its parent's space, in the precision of the JSON text.
+fn local(document: &Document, index: usize) -> Result<DMat4> {
+    let node = &document.value["nodes"][index];
+    if let Some(m) = numbers::<16>(&node["matrix"]) {
+        return Ok(DMat4::from_cols_array(&m));
+    }
+    let translation = numbers(&node["translation"]).map_or(DVec3::ZERO, DVec3::from_array);
+    let scale = numbers(&node["scale"]).map_or(DVec3::ONE, DVec3::from_array);
+    let rotation = numbers(&node["rotation"]).map_or(DVec4::W, DVec4::from_array);
+    let unit = rotation.try_normalize().ok_or_else(|| {
+        Fault::new(
+            format!("nodes[{index}].rotation"),
+            format!("{rotation} is no rotation"),
+            "a unit quaternion is expected",
+        )
+    })?;
+    Ok(DMat4::from_scale_rotation_translation(
+        scale,
+        DQuat::from_vec4(unit),
+        translation,
+    ))
+}
+
+/// An array of exactly `N` numbers. The typed parser has already refused anything else that is there.
+fn numbers<const N: usize>(value: &Value) -> Option<[f64; N]> {
+    let array = value.as_array().filter(|array| array.len() == N)?;
+    let mut numbers = [0.0; N];
+    for (number, value) in numbers.iter_mut().zip(array) {
+        *number = value.as_f64()?;
+    }
+    Some(numbers)
+}

@@ -1,0 +1,295 @@
+//! Triangles of one primitive, in the space of its mesh.
+
+use super::accessor::{Indices, Vectors};
+use super::buffers::Buffers;
+use super::document::Document;
+use super::fault::{Fault, Result};
+use super::limits::Limits;
+use super::materials::{Mapping, Materials};
+use super::topology::Topology;
+use super::warnings::Warnings;
+use glam::{DVec3, Vec2, Vec3};
+use gltf::json::mesh::{self, Mode, Semantic};
+use gltf::json::validation::Checked;
+use gltf::json::{Accessor, Index};
+use std::collections::HashMap;
+
+/// Indexed triangles with only those vertices that they use.
+pub(super) struct Primitive {
+    pub(super) positions: Vec<Vec3>,
+    /// One a vertex; zero, or of any length, where the file has none that can be used.
+    pub(super) normals: Vec<Vec3>,
+    /// One a vertex, or none at all.
+    pub(super) texcoords: Vec<Vec2>,
+    pub(super) triangles: Vec<[u32; 3]>,
+    /// Index into the scene's materials.
+    pub(super) material: u32,
+}
+
+/// What reading a primitive needs besides itself.
+pub(super) struct Reader<'a> {
+    pub(super) document: &'a Document,
+    pub(super) buffers: &'a Buffers<'a>,
+    pub(super) materials: Materials<'a>,
+    /// Triangles that may still be decoded.
+    pub(super) left: u64,
+    pub(super) limits: &'a Limits,
+}
+
+impl<'a> Reader<'a> {
+    /// Reads a primitive; none if it draws nothing. `place` is its JSON path.
+    pub(super) fn read(
+        &mut self,
+        primitive: &mesh::Primitive,
+        place: &str,
+        warnings: &mut Warnings,
+    ) -> Result<Option<Primitive>> {
+        let Some(topology) = topology(primitive, place, warnings)? else {
+            return Ok(None);
+        };
+        let Some(positions) = self.vectors::<3>(primitive, Semantic::Positions, place)? else {
+            warnings.add("primitives without positions are left out");
+            return Ok(None);
+        };
+        note_ignored(primitive, warnings);
+        let vertices = positions.len();
+        let triangles = self.triangles(primitive, topology, vertices, place)?;
+        let normals = self.vectors::<3>(primitive, Semantic::Normals, place)?;
+        check_len(normals.as_ref(), vertices, "NORMAL", place)?;
+
+        let (triangles, sources) = if normals.is_some() {
+            compact(triangles, vertices)
+        } else {
+            unshared(triangles)
+        };
+        let positions = sources
+            .iter()
+            .map(|&source| position(&positions, source, place))
+            .collect::<Result<Vec<_>>>()?;
+        let triangles = with_area(triangles, &positions);
+        if triangles.is_empty() {
+            return Ok(None);
+        }
+        let normals = sources.iter().map(|&source| match &normals {
+            Some(normals) => usable(Vec3::from(normals.get(source))),
+            None => Vec3::ZERO,
+        });
+        let normals = normals.collect();
+        let (material, mapping) = self.materials.intern(primitive.material, place, warnings)?;
+        let texcoords = match mapping {
+            Some(mapping) => self.texcoords(primitive, &mapping, &sources, place, warnings)?,
+            None => Vec::new(),
+        };
+        Ok(Some(Primitive {
+            positions,
+            normals,
+            texcoords,
+            triangles,
+            material,
+        }))
+    }
+
+    /// Triangles as indices of the file's vertices, all in range.
+    fn triangles(
+        &mut self,
+        primitive: &mesh::Primitive,
+        topology: Topology,
+        vertices: usize,
+        place: &str,
+    ) -> Result<Vec<[u32; 3]>> {
+        let place = format!("{place}.indices");
+        let indices = primitive
+            .indices
+            .map(|index| Indices::new(self.document, self.buffers, index, || place.clone()))
+            .transpose()?;
+        let count = topology.triangles(indices.as_ref().map_or(vertices, Indices::len));
+        self.left = self
+            .left
+            .checked_sub(count as u64)
+            .ok_or_else(|| too_many_triangles(&place, self.limits))?;
+        let vertex = |corner: usize| {
+            let index = match &indices {
+                Some(indices) => indices.get(corner),
+                // Below the limit of triangles, three times over.
+                None => corner as u32,
+            };
+            if (index as usize) < vertices {
+                return Ok(index);
+            }
+            Err(Fault::new(
+                &place,
+                format!("number {corner} is {index}, but there are {vertices} vertices"),
+                "the file is broken; export it again",
+            ))
+        };
+        let triangle = |i| {
+            let [a, b, c] = topology.triangle(i);
+            Ok([vertex(a)?, vertex(b)?, vertex(c)?])
+        };
+        (0..count).map(triangle).collect()
+    }
+
+    fn texcoords(
+        &self,
+        primitive: &mesh::Primitive,
+        mapping: &Mapping,
+        sources: &[u32],
+        place: &str,
+        warnings: &mut Warnings,
+    ) -> Result<Vec<Vec2>> {
+        let semantic = Semantic::TexCoords(mapping.set);
+        let Some(texcoords) = self.vectors::<2>(primitive, semantic, place)? else {
+            warnings.add("textured surfaces without texture coordinates show one texel");
+            return Ok(Vec::new());
+        };
+        let needed = sources.iter().max().map_or(0, |&last| last as usize + 1);
+        check_len(Some(&texcoords), needed, "TEXCOORD", place)?;
+        let at = |&source| {
+            let mapped = mapping.apply(Vec2::from(texcoords.get(source)));
+            if mapped.is_finite() {
+                mapped
+            } else {
+                Vec2::ZERO
+            }
+        };
+        Ok(sources.iter().map(at).collect())
+    }
+
+    fn vectors<const N: usize>(
+        &self,
+        primitive: &mesh::Primitive,
+        semantic: Semantic,
+        place: &str,
+    ) -> Result<Option<Vectors<'a, N>>> {
+        let name = semantic.to_string();
+        let index: Option<&Index<Accessor>> = primitive.attributes.get(&Checked::Valid(semantic));
+        let place = || format!("{place}.attributes.{name}");
+        index
+            .map(|&index| Vectors::new(self.document, self.buffers, index, place))
+            .transpose()
+    }
+}
+
+/// The refusal of more triangles than the limits allow.
+pub(super) fn too_many_triangles(place: &str, limits: &Limits) -> Fault {
+    Fault::new(
+        place,
+        format!("more than {} triangles", limits.triangles),
+        "simplify the scene, or raise the limit `triangles`",
+    )
+}
+
+fn topology(
+    primitive: &mesh::Primitive,
+    place: &str,
+    warnings: &mut Warnings,
+) -> Result<Option<Topology>> {
+    match primitive.mode {
+        Checked::Valid(Mode::Triangles) => Ok(Some(Topology::List)),
+        Checked::Valid(Mode::TriangleStrip) => Ok(Some(Topology::Strip)),
+        Checked::Valid(Mode::TriangleFan) => Ok(Some(Topology::Fan)),
+        Checked::Valid(Mode::Points | Mode::Lines | Mode::LineLoop | Mode::LineStrip) => {
+            warnings.add("points and lines are left out");
+            Ok(None)
+        }
+        Checked::Invalid => Err(Fault::new(
+            format!("{place}.mode"),
+            "is not one of glTF 2.0",
+            "the file is broken; export it again",
+        )),
+    }
+}
+
+fn note_ignored(primitive: &mesh::Primitive, warnings: &mut Warnings) {
+    if primitive.targets.as_ref().is_some_and(|t| !t.is_empty()) {
+        warnings.add("morph targets are ignored");
+    }
+    let colored = |s: &Checked<Semantic>| matches!(s, Checked::Valid(Semantic::Colors(_)));
+    if primitive.attributes.keys().any(colored) {
+        warnings.add("vertex colours are ignored");
+    }
+}
+
+fn check_len<const N: usize>(
+    attribute: Option<&Vectors<'_, N>>,
+    vertices: usize,
+    name: &str,
+    place: &str,
+) -> Result<()> {
+    match attribute {
+        Some(attribute) if attribute.len() < vertices => Err(Fault::new(
+            format!("{place}.attributes.{name}"),
+            format!("{} elements for {vertices} vertices", attribute.len()),
+            "the file is broken; export it again",
+        )),
+        _ => Ok(()),
+    }
+}
+
+fn position(positions: &Vectors<'_, 3>, source: u32, place: &str) -> Result<Vec3> {
+    let position = Vec3::from(positions.get(source));
+    if position.is_finite() {
+        return Ok(position);
+    }
+    Err(Fault::new(
+        format!("{place}.attributes.POSITION"),
+        format!("vertex {source} is at {position}, which is no place"),
+        "the file is broken; export it again",
+    ))
+}
+
+/// The normal, or zero if it points nowhere.
+fn usable(normal: Vec3) -> Vec3 {
+    if normal.is_finite() {
+        normal
+    } else {
+        Vec3::ZERO
+    }
+}
+
+/// Triangles with indices into a list of only those vertices that they use, and that list.
+fn compact(mut triangles: Vec<[u32; 3]>, vertices: usize) -> (Vec<[u32; 3]>, Vec<u32>) {
+    let mut sources = Vec::new();
+    let corners = triangles.as_flattened_mut();
+    // A table as long as the attributes pays only if much of it is used.
+    if vertices / 8 <= corners.len() {
+        let mut places = vec![u32::MAX; vertices];
+        for corner in corners.iter_mut() {
+            let place = &mut places[*corner as usize];
+            if *place == u32::MAX {
+                *place = sources.len() as u32;
+                sources.push(*corner);
+            }
+            *corner = *place;
+        }
+    } else {
+        let mut places = HashMap::new();
+        for corner in corners.iter_mut() {
+            let place = *places.entry(*corner).or_insert_with(|| {
+                sources.push(*corner);
+                (sources.len() - 1) as u32
+            });
+            *corner = place;
+        }
+    }
+    (triangles, sources)
+}
+
+/// Triangles that share no vertex, so that each can have its own normal.
+fn unshared(triangles: Vec<[u32; 3]>) -> (Vec<[u32; 3]>, Vec<u32>) {
+    let own = |i: u32| [3 * i, 3 * i + 1, 3 * i + 2];
+    let numbered = (0..triangles.len() as u32).map(own).collect();
+    (numbered, triangles.into_iter().flatten().collect())
+}
+
+/// Without the triangles that are a line or a point. Exact: the corners are f32, the test is f64.
+pub(super) fn with_area(mut triangles: Vec<[u32; 3]>, positions: &[Vec3]) -> Vec<[u32; 3]> {
+    triangles.retain(|t| cross(t.map(|v| positions[v as usize])) != DVec3::ZERO);
+    triangles
+}
+
+/// Twice the area of a triangle along its normal.
+pub(super) fn cross(corners: [Vec3; 3]) -> DVec3 {
+    let [a, b, c] = corners.map(|p| p.as_dvec3());
+    (b - a).cross(c - a)
+}
