@@ -3,16 +3,21 @@
 //! | module | holds |
 //! | --- | --- |
 //! | [`args`] | what was typed |
+//! | [`job`] | what it means |
 //! | [`commands`] | one file a command |
 //! | [`input`], [`output`], [`picture`] | files |
+//! | [`progress`] | what is shown meanwhile |
 //! | [`exit`] | failures and their exit codes |
 
 pub mod args;
 pub mod commands;
 pub mod exit;
 pub mod input;
+mod interrupt;
+pub mod job;
 pub mod output;
 pub mod picture;
+pub mod progress;
 mod text;
 
 use clap::Parser;

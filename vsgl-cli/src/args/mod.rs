@@ -1,10 +1,19 @@
 //! What was typed: the command line as clap reads it. What it means is not decided here.
 
 mod compare;
+mod render;
+mod scene;
+mod settings;
+mod words;
 
 pub use compare::{CompareArgs, Limit};
+pub use render::{BackendName, InfoArgs, OutputArgs, RenderArgs, When};
+pub use scene::{SceneArgs, ViewArgs};
+pub use settings::SettingsArgs;
+pub use words::{LookAt, Size, Spot};
 
-use clap::{Parser, Subcommand};
+use clap::{Args, Parser, Subcommand};
+use clap_complete::Shell;
 
 /// The command line.
 #[derive(Debug, Parser)]
@@ -13,6 +22,7 @@ use clap::{Parser, Subcommand};
     version,
     about = "Glossy one-bounce indirect light by virtual spherical Gaussian lights",
     after_long_help = crate::exit::EXIT_CODES,
+    subcommand_required = true,
     arg_required_else_help = true,
     max_term_width = 110,
 )]
@@ -25,6 +35,53 @@ pub struct Cli {
 /// The commands.
 #[derive(Debug, Subcommand)]
 pub enum Command {
+    /// Render a scene to pictures
+    Render(Box<RenderArgs>),
+    /// Show what a scene holds and what would run, and why; without a scene, what this program offers
+    Info(Box<InfoArgs>),
     /// Compare a picture with a reference: error metrics, limits, a false-colour map
     Compare(CompareArgs),
+    /// Print a completion script for a shell
+    Completions(CompletionsArgs),
+    /// Print the manual page of the program or of a command
+    Man(ManArgs),
+}
+
+/// Arguments of `vsgl completions`.
+#[derive(Args, Debug)]
+#[command(
+    after_help = "Example:\n  vsgl completions bash > ~/.local/share/bash-completion/completions/vsgl"
+)]
+pub struct CompletionsArgs {
+    /// The shell
+    #[arg(value_enum)]
+    pub shell: Shell,
+}
+
+/// Arguments of `vsgl man`.
+#[derive(Args, Debug)]
+#[command(after_help = "Example:\n  vsgl man render | man -l -")]
+pub struct ManArgs {
+    /// The command; without it the program
+    #[arg(value_name = "COMMAND")]
+    pub page: Option<String>,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn negative_numbers_need_no_equals_sign() {
+        let typed =
+            "vsgl render -o a.png --look-at -1,-2,-3:0,0,0 --spot -1,0,0:0,0,0:1:30 --exposure -2";
+        let cli = Cli::try_parse_from(typed.split(' ')).map_err(|e| e.to_string());
+        assert!(cli.is_ok(), "{cli:?}");
+    }
 }

@@ -1,6 +1,11 @@
 //! One file a command.
 
 mod compare;
+mod dump;
+mod facts;
+mod info;
+mod pages;
+mod render;
 
 use crate::args::{Cli, Command};
 use crate::exit::Result;
@@ -14,6 +19,10 @@ pub const SCHEMA_VERSION: u32 = 1;
 /// What the command returns.
 pub fn run(cli: Cli) -> Result<()> {
     match cli.command {
+        Command::Render(args) => render::run(&args),
+        Command::Info(args) => info::run(&args),
         Command::Compare(args) => compare::run(&args),
+        Command::Completions(args) => pages::completions(&args),
+        Command::Man(args) => pages::man(&args),
     }
 }

@@ -1,0 +1,49 @@
+//! Arguments that choose the scene, its lights, the camera and the size of the picture.
+
+use super::words::{LookAt, Size, Spot, field_of_view};
+use clap::Args;
+
+/// Scene, lights and camera.
+#[derive(Args, Clone, Debug, Default, PartialEq)]
+#[command(next_help_heading = "Scene, camera and lights")]
+pub struct SceneArgs {
+    /// glTF 2.0 file (.gltf, .glb), or sample:NAME for a scene made in code
+    #[arg(value_name = "SCENE")]
+    pub scene: Option<String>,
+    /// Camera of the scene, by name or by index from 0 [default: the first]
+    #[arg(long, value_name = "NAME|INDEX", conflicts_with = "look_at")]
+    pub camera: Option<String>,
+    /// Camera at ex,ey,ez that looks at tx,ty,tz, in world space [m]
+    #[arg(long, value_name = "ex,ey,ez:tx,ty,tz", value_parser = LookAt::parse, allow_hyphen_values = true)]
+    pub look_at: Option<LookAt>,
+    /// Vertical field of view of --look-at [default: 45]
+    #[arg(long, value_name = "DEGREES", value_parser = field_of_view, requires = "look_at")]
+    pub fov: Option<f64>,
+    /// Add a spot light at px,py,pz that points at tx,ty,tz (repeatable)
+    ///
+    /// I is the radiant intensity on the axis in W/sr, one number or r,g,b. OUTER and INNER are half angles in degrees
+    /// with the falloff of KHR_lights_punctual; without INNER the edge is hard.
+    #[arg(long, value_name = "px,py,pz:tx,ty,tz:I:OUTER[:INNER]", value_parser = Spot::parse, allow_hyphen_values = true)]
+    pub spot: Vec<Spot>,
+    /// Switch the scene's own lights off
+    #[arg(long)]
+    pub only_added_lights: bool,
+}
+
+/// Size and samples.
+#[derive(Args, Clone, Debug, Default, PartialEq)]
+#[command(next_help_heading = "Picture")]
+pub struct ViewArgs {
+    /// Size of the picture in pixels [default: 640x360]
+    #[arg(long, value_name = "WxH", value_parser = Size::parse)]
+    pub size: Option<Size>,
+    /// N by N samples in each pixel [default: 1]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=64))]
+    pub aa: Option<u32>,
+    /// Render every Nth pixel of every Nth row of that size; the output is N times smaller [default: 1]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=65_536))]
+    pub stride: Option<u32>,
+    /// Seed of random numbers; the present methods draw none, so it changes nothing [default: 0]
+    #[arg(long, value_name = "N")]
+    pub seed: Option<u64>,
+}

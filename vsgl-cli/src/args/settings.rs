@@ -1,0 +1,94 @@
+//! Arguments that choose how light is computed. Core's settings know which values there are.
+
+use clap::Args;
+use clap::builder::PossibleValuesParser;
+use std::path::PathBuf;
+use vsgl_core::settings::{
+    Clustering, DiffuseForm, Emission, GlossyForm, Method, OcclusionMethod, PdfMethod, Preset,
+};
+
+/// Preset, file, keys and flags; each overrides those before it.
+#[derive(Args, Clone, Debug, Default, PartialEq)]
+#[command(next_help_heading = "Settings (preset, then file, then --set, then the other flags)")]
+pub struct SettingsArgs {
+    /// Named settings to start from; `vsgl info` lists them
+    #[arg(long, value_name = "NAME", value_parser = PossibleValuesParser::new(Preset::WORDS))]
+    pub preset: Option<String>,
+    /// File with a line `key = value` for each setting; # begins a comment
+    #[arg(long = "settings", value_name = "FILE")]
+    pub file: Option<PathBuf>,
+    /// Set any setting by its key (repeatable); `vsgl info` lists the keys
+    #[arg(long, value_name = "KEY=VALUE", value_parser = key_value)]
+    pub set: Vec<(String, String)>,
+    /// How indirect light is found; vpl takes every texel for a light, which is the slow reference
+    #[arg(long, value_parser = PossibleValuesParser::new(Method::WORDS))]
+    pub method: Option<String>,
+    /// Number of virtual lights [default: 1024]
+    #[arg(long, value_name = "N")]
+    pub lights: Option<String>,
+    /// Texels along a side of each reflective shadow map [default: 512]
+    #[arg(long, value_name = "N")]
+    pub rsm: Option<String>,
+    /// Overlap of filtered kernels [default: 1]
+    #[arg(long, value_name = "K")]
+    pub kernel: Option<String>,
+    /// Density that filtered kernels are drawn from
+    #[arg(long, value_parser = PossibleValuesParser::new(PdfMethod::WORDS))]
+    pub pdf: Option<String>,
+    /// Shape of the light that a virtual light sends
+    #[arg(long, value_parser = PossibleValuesParser::new(Emission::WORDS))]
+    pub emission: Option<String>,
+    /// How texels become virtual lights
+    #[arg(long, value_parser = PossibleValuesParser::new(Clustering::WORDS))]
+    pub clustering: Option<String>,
+    /// Whether and how indirect light is blocked
+    #[arg(long, value_parser = PossibleValuesParser::new(OcclusionMethod::WORDS))]
+    pub occlusion: Option<String>,
+    /// Integral over the receiver's Lambert part
+    #[arg(long, value_parser = PossibleValuesParser::new(DiffuseForm::WORDS))]
+    pub diffuse: Option<String>,
+    /// Integral over the receiver's specular part
+    #[arg(long, value_parser = PossibleValuesParser::new(GlossyForm::WORDS))]
+    pub glossy: Option<String>,
+}
+
+impl SettingsArgs {
+    /// Keys of core's settings that have a flag of the same name.
+    pub const FLAGS: [&'static str; 10] = [
+        "method",
+        "lights",
+        "rsm",
+        "kernel",
+        "pdf",
+        "emission",
+        "clustering",
+        "occlusion",
+        "diffuse",
+        "glossy",
+    ];
+
+    /// The flags with their values, in the order of [`SettingsArgs::FLAGS`].
+    pub fn flags(&self) -> impl Iterator<Item = (&'static str, &str)> {
+        let values = [
+            &self.method,
+            &self.lights,
+            &self.rsm,
+            &self.kernel,
+            &self.pdf,
+            &self.emission,
+            &self.clustering,
+            &self.occlusion,
+            &self.diffuse,
+            &self.glossy,
+        ];
+        let pairs = Self::FLAGS.into_iter().zip(values);
+        pairs.filter_map(|(key, value)| Some((key, value.as_deref()?)))
+    }
+}
+
+fn key_value(word: &str) -> Result<(String, String), String> {
+    let (key, value) = word
+        .split_once('=')
+        .ok_or("give KEY=VALUE, such as lights=4096")?;
+    Ok((key.trim().to_owned(), value.trim().to_owned()))
+}

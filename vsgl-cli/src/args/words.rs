@@ -1,0 +1,248 @@
+//! Values of several parts, such as `--spot px,py,pz:tx,ty,tz:I:OUTER`.
+
+use std::fmt;
+
+/// Width and height of a picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Size {
+    /// Width in pixels.
+    pub width: u32,
+    /// Height in pixels.
+    pub height: u32,
+}
+
+impl Size {
+    /// Largest side.
+    pub const SIDE_MAX: u32 = 65_536;
+
+    /// Reads `WIDTHxHEIGHT`.
+    ///
+    /// # Errors
+    /// What would be accepted.
+    pub fn parse(word: &str) -> Result<Self, String> {
+        let side = |part: &str| {
+            let side = part.parse().ok();
+            side.filter(|side| (1..=Self::SIDE_MAX).contains(side))
+        };
+        let sides = word.split_once('x').map(|(w, h)| (side(w), side(h)));
+        let Some((Some(width), Some(height))) = sides else {
+            let most = Self::SIDE_MAX;
+            return Err(format!(
+                "give WIDTHxHEIGHT, such as 1280x720, each from 1 to {most}"
+            ));
+        };
+        Ok(Self { width, height })
+    }
+}
+
+impl fmt::Display for Size {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}x{}", self.width, self.height)
+    }
+}
+
+/// Eye and target of a camera in world space [m].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LookAt {
+    /// Where the camera is.
+    pub eye: [f64; 3],
+    /// What it looks at.
+    pub target: [f64; 3],
+}
+
+impl LookAt {
+    /// Reads `ex,ey,ez:tx,ty,tz`.
+    ///
+    /// # Errors
+    /// What would be accepted.
+    pub fn parse(word: &str) -> Result<Self, String> {
+        let parts: Vec<&str> = word.split(':').collect();
+        let [eye, target] = parts[..] else {
+            return Err("give ex,ey,ez:tx,ty,tz, two points".into());
+        };
+        let [eye, target] = [point(eye)?, point(target)?];
+        if eye == target {
+            return Err("eye and target are one point; give two".into());
+        }
+        Ok(Self { eye, target })
+    }
+}
+
+impl fmt::Display for LookAt {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}:{}", list(self.eye), list(self.target))
+    }
+}
+
+/// A spot light in world space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spot {
+    /// Where it is [m].
+    pub position: [f64; 3],
+    /// What it points at [m].
+    pub target: [f64; 3],
+    /// Radiant intensity on the axis [W/sr].
+    pub intensity: [f64; 3],
+    /// Half angle beyond which it is dark [degrees].
+    pub outer: f64,
+    /// Half angle up to which the intensity is full [degrees]; none: a hard edge.
+    pub inner: Option<f64>,
+}
+
+/// Largest outer half angle of a spot [degrees].
+const OUTER_MAX: f64 = 80.0;
+
+impl Spot {
+    /// Reads `px,py,pz:tx,ty,tz:I:OUTER[:INNER]`.
+    ///
+    /// # Errors
+    /// What would be accepted.
+    pub fn parse(word: &str) -> Result<Self, String> {
+        let parts: Vec<&str> = word.split(':').collect();
+        if !(4..=5).contains(&parts.len()) {
+            let form = "px,py,pz:tx,ty,tz:I:OUTER";
+            return Err(format!("give {form} or {form}:INNER"));
+        }
+        let position = point(parts[0])?;
+        let target = point(parts[1])?;
+        if position == target {
+            return Err("position and target are one point; give two".into());
+        }
+        let outer = half_angle(parts[3], OUTER_MAX)?;
+        if outer == 0.0 {
+            return Err("OUTER is 0; give a half angle above it".into());
+        }
+        Ok(Self {
+            position,
+            target,
+            intensity: intensity(parts[2])?,
+            outer,
+            inner: parts
+                .get(4)
+                .map(|word| half_angle(word, outer))
+                .transpose()?,
+        })
+    }
+}
+
+impl fmt::Display for Spot {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (position, target) = (list(self.position), list(self.target));
+        let intensity = list(self.intensity);
+        write!(f, "{position}:{target}:{intensity}:{}", self.outer)?;
+        self.inner.map_or(Ok(()), |inner| write!(f, ":{inner}"))
+    }
+}
+
+/// Reads a vertical field of view [degrees].
+///
+/// # Errors
+/// What would be accepted.
+pub(super) fn field_of_view(word: &str) -> Result<f64, String> {
+    let degrees = word.parse().ok();
+    degrees
+        .filter(|d| (0.01..=170.0).contains(d))
+        .ok_or_else(|| "give a full angle from 0.01 to 170 degrees".into())
+}
+
+fn point(word: &str) -> Result<[f64; 3], String> {
+    let problem = || format!("`{word}` is no point; give three numbers x,y,z in metres");
+    let coordinates = numbers(word).ok_or_else(problem)?;
+    coordinates.try_into().map_err(|_| problem())
+}
+
+/// One number for all three colours, or three.
+fn intensity(word: &str) -> Result<[f64; 3], String> {
+    let values = numbers(word).filter(|v| v.iter().all(|i| (0.0..=1e30).contains(i)));
+    match values.as_deref() {
+        Some(&[grey]) => Ok([grey; 3]),
+        Some(&[r, g, b]) => Ok([r, g, b]),
+        _ => Err(format!(
+            "`{word}` is no intensity; give one number or r,g,b in W/sr, each at least 0"
+        )),
+    }
+}
+
+fn half_angle(word: &str, most: f64) -> Result<f64, String> {
+    let degrees = word.parse().ok();
+    degrees.filter(|d| (0.0..=most).contains(d)).ok_or_else(|| {
+        format!("`{word}` does not fit; give a half angle from 0 to {most} degrees (INNER at most OUTER)")
+    })
+}
+
+/// Finite numbers separated by commas.
+fn numbers(word: &str) -> Option<Vec<f64>> {
+    let number = |part: &str| part.parse().ok().filter(|n: &f64| n.is_finite());
+    word.split(',').map(number).collect()
+}
+
+fn list([x, y, z]: [f64; 3]) -> String {
+    format!("{x},{y},{z}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes_are_two_whole_numbers() {
+        let size = Size {
+            width: 640,
+            height: 360,
+        };
+        assert_eq!(Size::parse("640x360"), Ok(size));
+        assert_eq!(size.to_string(), "640x360");
+        for bad in [
+            "0x0",
+            "1e9x1e9",
+            "-1x5",
+            "NaNxNaN",
+            "640",
+            "x",
+            "640x360x1",
+            "70000x1",
+        ] {
+            assert!(Size::parse(bad).is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn spots_and_cameras_round_trip() {
+        for word in [
+            "0,-1.5,100000.25:1,2,3:9,8,7:30",
+            "0,0,0:0,0,-1:5,5,5:80:25.5",
+        ] {
+            assert_eq!(Spot::parse(word).map(|s| s.to_string()), Ok(word.into()));
+        }
+        let grey = Spot::parse("0,0,0:0,0,1:7:30").map(|s| s.intensity);
+        assert_eq!(grey, Ok([7.0; 3]));
+        let word = "-278,273,800:-278,273,-280";
+        assert_eq!(LookAt::parse(word).map(|l| l.to_string()), Ok(word.into()));
+    }
+
+    #[test]
+    fn nonsense_is_refused() {
+        for bad in [
+            "",
+            "0,0,0:0,0,1:7",
+            "0,0,0:0,0,0:7:30",
+            "0,0,NaN:0,0,1:7:30",
+            "0,0,inf:0,0,1:7:30",
+            "0,0:0,0,1:7:30",
+            "0,0,0:0,0,1:-7:30",
+            "0,0,0:0,0,1:1,2:30",
+            "0,0,0:0,0,1:7:0",
+            "0,0,0:0,0,1:7:90",
+            "0,0,0:0,0,1:7:30:31",
+            "0,0,0:0,0,1:7:30:20:10",
+        ] {
+            assert!(Spot::parse(bad).is_err(), "{bad}");
+        }
+        for bad in ["", "0,0,0", "0,0,0:0,0,0", "0,0,0:1,1", "a,b,c:d,e,f"] {
+            assert!(LookAt::parse(bad).is_err(), "{bad}");
+        }
+        for bad in ["0", "180", "NaN", "-40", "inf"] {
+            assert!(field_of_view(bad).is_err(), "{bad}");
+        }
+    }
+}

@@ -1,0 +1,277 @@
+//! `vsgl render`: from a scene to pictures.
+
+use super::{SCHEMA_VERSION, dump, facts};
+use crate::args::{BackendName, OutputArgs, RenderArgs};
+use crate::exit::{Failure, Result};
+use crate::job::Job;
+use crate::output::{self, Format, Metadata, Pending};
+use crate::picture::Picture;
+use crate::progress::Progress;
+use crate::{interrupt, text};
+use serde_json::{Value, json};
+use std::time::Instant;
+use vsgl_core::backend::Backend;
+use vsgl_core::data::{Image, SceneData};
+use vsgl_core::render::{Frame, Phase, render};
+use vsgl_cpu::CpuBackend;
+
+/// Renders and writes.
+///
+/// # Errors
+/// What reading, rendering and writing return.
+pub(super) fn run(args: &RenderArgs) -> Result<()> {
+    let out = &args.output;
+    for path in &out.files {
+        Format::of(path)?;
+    }
+    let job = Job::new(&args.scene, &args.view, &args.settings)?;
+    if job.facts.triangles == 0 {
+        return Err(Failure::Input(format!(
+            "{}: nothing to draw: the scene has no triangles; give one that has",
+            job.name
+        )));
+    }
+    if !out.quiet {
+        job.warnings
+            .iter()
+            .for_each(|w| text::warn(&format!("warning: {w}")));
+    }
+    let files = output::open_all(&out.files)?;
+    let dump = out.dump.as_deref().map(dump::prepare).transpose()?;
+    interrupt::listen()?;
+    match out.backend {
+        BackendName::Auto | BackendName::Cpu => {
+            let backend = CpuBackend::new(out.threads)?;
+            let device = facts::count(backend.threads(), "thread");
+            work(&backend, &device, &job, out, files, dump)
+        }
+    }
+}
+
+fn work<B: Backend>(
+    backend: &B,
+    device: &str,
+    job: &Job,
+    out: &OutputArgs,
+    files: Vec<(Format, Pending)>,
+    dump: Option<dump::Dump>,
+) -> Result<()> {
+    let start = Instant::now();
+    let scene = backend.upload(SceneData::new(&job.scene))?;
+    let prepared = start.elapsed().as_secs_f64();
+    let progress = Progress::new(if out.quiet {
+        crate::args::When::Never
+    } else {
+        out.progress
+    });
+    let frame = render(
+        backend,
+        &scene,
+        &job.lights,
+        &job.view,
+        &job.plan,
+        &progress,
+    );
+    let times = progress.finish();
+    let frame: Frame<B> = frame?;
+    let image = backend.download(&frame.image)?;
+
+    let start = Instant::now();
+    let mut written = Vec::new();
+    for (format, file) in files {
+        interrupt::check()?;
+        written.push(write(job, backend.name(), out, &image, format, file)?);
+    }
+    if let Some(dump) = dump {
+        for path in dump.write(backend, &frame)? {
+            written.push(Written::new(path, "PNG"));
+        }
+    }
+    let mut seconds = vec![("scene".to_owned(), prepared)];
+    seconds.extend(
+        times
+            .iter()
+            .map(|(p, t): &(Phase, _)| (p.to_string(), t.as_secs_f64())),
+    );
+    seconds.push(("write".into(), start.elapsed().as_secs_f64()));
+    let clusters = match &frame.vsgls {
+        Some(vsgls) => Some(backend.download(vsgls)?.count),
+        None => None,
+    };
+    let report = Report {
+        job,
+        out,
+        backend: backend.name(),
+        device,
+        clusters,
+        seconds,
+        written,
+    };
+    if out.json {
+        return text::print_json(&report.json());
+    }
+    if out.quiet {
+        return Ok(());
+    }
+    text::print(&report.text())
+}
+
+/// A file that was written.
+struct Written {
+    path: String,
+    format: &'static str,
+    /// Stops of a PNG.
+    exposure: Option<f32>,
+}
+
+impl Written {
+    fn new(path: String, format: &'static str) -> Self {
+        Self {
+            path,
+            format,
+            exposure: None,
+        }
+    }
+}
+
+fn write(
+    job: &Job,
+    backend: &str,
+    out: &OutputArgs,
+    image: &Image,
+    format: Format,
+    file: Pending,
+) -> Result<Written> {
+    let path = file.path().to_string_lossy().into_owned();
+    let mut written = Written::new(path, format.name());
+    let mut settings = job.metadata(backend);
+    let mut words = job.words();
+    match format {
+        Format::Exr => {
+            let metadata = metadata(job, settings, &words);
+            let picture = Picture::from_image(image);
+            file.write(|file| output::exr::write(file, &picture, &metadata))?;
+        }
+        Format::Png => {
+            let pixels = image.beauty();
+            let stops = out.exposure.stops(&pixels);
+            written.exposure = Some(stops);
+            settings.insert("exposure".into(), text::json_number(f64::from(stops)));
+            settings.insert("tonemap".into(), out.tonemap.word().into());
+            words.extend(display_words(out));
+            let metadata = metadata(job, settings, &words);
+            let scale = stops.exp2();
+            let code = |p: &[f32; 3]| {
+                out.tonemap
+                    .apply(p.map(|c| c * scale))
+                    .map(output::srgb::code)
+            };
+            let codes: Vec<[u8; 3]> = pixels.iter().map(code).collect();
+            let (width, height) = (image.width, image.height);
+            file.write(|file| output::png::write(file, width, height, &codes, &metadata))?;
+        }
+    }
+    Ok(written)
+}
+
+fn metadata(job: &Job, settings: serde_json::Map<String, Value>, words: &[String]) -> Metadata {
+    Metadata {
+        software: output::software(),
+        command: command(words),
+        world_to_camera: Some(job.world_to_camera()),
+        settings: Value::Object(settings),
+    }
+}
+
+/// Flags that decide how a PNG looks, where they differ from the usual.
+fn display_words(out: &OutputArgs) -> Vec<String> {
+    let mut words = Vec::new();
+    if let output::exposure::Exposure::Stops(stops) = out.exposure {
+        words.push(format!("--exposure={stops}"));
+    }
+    if out.tonemap != output::tonemap::Tonemap::Neutral {
+        words.extend(["--tonemap".into(), out.tonemap.word().into()]);
+    }
+    words
+}
+
+fn command(words: &[String]) -> String {
+    let start = ["vsgl", "render"].map(String::from);
+    text::shell(&[&start[..], words].concat())
+}
+
+/// What was done.
+struct Report<'a> {
+    job: &'a Job,
+    out: &'a OutputArgs,
+    backend: &'static str,
+    device: &'a str,
+    clusters: Option<u32>,
+    seconds: Vec<(String, f64)>,
+    written: Vec<Written>,
+}
+
+impl Report<'_> {
+    /// The command that does the same again, outputs and all.
+    fn command(&self) -> String {
+        let mut words = self.job.words();
+        words.extend(display_words(self.out));
+        for file in &self.out.files {
+            words.extend(["-o".into(), file.to_string_lossy().into_owned()]);
+        }
+        if let Some(dump) = &self.out.dump {
+            words.extend(["--dump".into(), dump.to_string_lossy().into_owned()]);
+        }
+        command(&words)
+    }
+
+    fn text(&self) -> String {
+        let mut out = format!("{}\n\n", self.command());
+        out += &facts::scene_text(self.job);
+        if self.out.verbose {
+            out += &facts::settings_text(self.job);
+        }
+        out += &facts::plan_text(self.job);
+        out += &format!("phases    on {}, {}", self.backend, self.device);
+        if let Some(clusters) = self.clusters {
+            out += &format!(", {clusters} virtual lights");
+        }
+        out += "\n";
+        let total: f64 = self.seconds.iter().map(|(_, s)| s).sum();
+        for (phase, seconds) in &self.seconds {
+            out += &format!("  {phase:<8} {seconds:>9.3} s\n");
+        }
+        out += &format!("  {:<8} {total:>9.3} s\n", "all");
+        let (width, height) = self.job.view.pixels();
+        out += "written\n";
+        for file in &self.written {
+            out += &format!("  {}  {}", file.path, file.format);
+            if let Some(stops) = file.exposure {
+                out += &format!(", {width}x{height}, exposure {stops:+.2} stops");
+            } else if file.format == "EXR" {
+                out += &format!(", {width}x{height}, linear");
+            }
+            out += "\n";
+        }
+        out
+    }
+
+    fn json(&self) -> Value {
+        let mut document = facts::json(self.job);
+        let (width, height) = self.job.view.pixels();
+        let phase = |(phase, seconds): &(String, f64)| json!({"phase": phase, "seconds": seconds});
+        let file =
+            |w: &Written| json!({"file": w.path, "format": w.format, "exposure": w.exposure});
+        document["schema_version"] = SCHEMA_VERSION.into();
+        document["command"] = self.command().into();
+        document["backend"] = self.backend.into();
+        document["device"] = self.device.into();
+        document["virtual_lights"] = self.clusters.into();
+        document["width"] = width.into();
+        document["height"] = height.into();
+        document["seed"] = self.job.seed.into();
+        document["phases"] = self.seconds.iter().map(phase).collect();
+        document["outputs"] = self.written.iter().map(file).collect();
+        document
+    }
+}

@@ -1,0 +1,102 @@
+//! What was typed, turned into what is to be done: a scene with its lights, a view, settings and their plan.
+
+mod choose;
+mod repeat;
+
+pub use choose::settings;
+pub use repeat::settings_json;
+
+use crate::args::{SceneArgs, SettingsArgs, Size, ViewArgs};
+use crate::exit::Result;
+use std::path::Path;
+use vsgl_core::plan::Plan;
+use vsgl_core::render::View;
+use vsgl_core::scene::{Light, Scene, SceneFacts, gltf, samples};
+use vsgl_core::settings::Settings;
+
+/// Scene that is rendered when none is named.
+pub const DEFAULT_SCENE: &str = "sample:cornell";
+
+/// Everything that decides the pixels of a picture.
+#[derive(Clone, Debug)]
+pub struct Job {
+    /// The scene as it was named.
+    pub name: String,
+    /// The scene.
+    pub scene: Scene,
+    /// The lights that shine: the scene's own, unless switched off, and the added ones.
+    pub lights: Vec<Light>,
+    /// Name of the camera for reports.
+    pub camera: String,
+    /// Camera, size and samples.
+    pub view: View,
+    /// How light is computed.
+    pub settings: Settings,
+    /// What the scene contains, under these lights and seen by this camera.
+    pub facts: SceneFacts,
+    /// What will run, and why.
+    pub plan: Plan,
+    /// Seed of random numbers.
+    pub seed: u64,
+    /// What the user should know, a line each.
+    pub warnings: Vec<String>,
+    /// Arguments that choose the same scene, lights and camera again.
+    scene_words: Vec<String>,
+}
+
+impl Job {
+    /// Reads the scene and decides everything.
+    ///
+    /// # Errors
+    /// [`crate::exit::Failure::Usage`] for arguments that do not fit the scene or each other,
+    /// [`crate::exit::Failure::Input`] for files that cannot be read.
+    pub fn new(scene: &SceneArgs, view: &ViewArgs, settings: &SettingsArgs) -> Result<Self> {
+        let settings = choose::settings(settings)?;
+        let size = view.size.unwrap_or(SIZE);
+        let name = scene.scene.clone().unwrap_or_else(|| DEFAULT_SCENE.into());
+        let read = read_scene(&name)?;
+        let mut warnings = read.warnings.clone();
+        let lights = choose::lights(&read, scene)?;
+        let (camera_name, camera) = choose::camera(&read, scene, size, &mut warnings)?;
+        let view_checked = View {
+            camera,
+            width: size.width,
+            height: size.height,
+            aa: view.aa.unwrap_or(1),
+            stride: view.stride.unwrap_or(1),
+        }
+        .checked()?;
+        let facts = SceneFacts::new(&read, &lights, &camera);
+        let plan = Plan::new(&facts, &settings)?;
+        if facts.triangles > 0 && lights.is_empty() {
+            warnings.push("no light: the picture will be black; add one with --spot".into());
+        }
+        Ok(Self {
+            scene_words: repeat::scene_words(&name, scene),
+            name,
+            scene: read,
+            lights,
+            camera: camera_name,
+            view: view_checked,
+            settings,
+            facts,
+            plan,
+            seed: view.seed.unwrap_or(0),
+            warnings,
+        })
+    }
+}
+
+/// Size of a picture unless told otherwise.
+const SIZE: Size = Size {
+    width: 640,
+    height: 360,
+};
+
+fn read_scene(name: &str) -> Result<Scene> {
+    let scene = match name.strip_prefix("sample:") {
+        Some(sample) => samples::by_name(sample)?,
+        None => gltf::load(Path::new(name))?,
+    };
+    Ok(scene)
+}

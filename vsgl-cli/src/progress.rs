@@ -1,0 +1,104 @@
+//! How far a picture is: on a terminal as a bar, elsewhere not at all or as lines.
+
+use crate::args::When;
+use crate::interrupt;
+use crate::text;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::io::IsTerminal;
+use std::sync::{Mutex, PoisonError};
+use std::time::Duration;
+use vsgl_core::render::{Observer, Phase};
+
+/// Shows the phases, notes their times, and passes on the wish to stop.
+#[derive(Debug)]
+pub struct Progress {
+    show: Show,
+    times: Mutex<Vec<(Phase, Duration)>>,
+}
+
+#[derive(Debug)]
+enum Show {
+    Nothing,
+    Bar(ProgressBar),
+    /// A line for each phase and each tenth of it; the last tenth shown.
+    Lines(Mutex<u32>),
+}
+
+impl Progress {
+    /// Shows progress on standard error, as asked.
+    pub fn new(when: When) -> Self {
+        let terminal = std::io::stderr().is_terminal();
+        let show = match (when, terminal) {
+            (When::Never, _) | (When::Auto, false) => Show::Nothing,
+            (_, true) => Show::Bar(bar()),
+            (When::Always, false) => Show::Lines(Mutex::new(0)),
+        };
+        Self {
+            show,
+            times: Mutex::new(Vec::new()),
+        }
+    }
+
+    /// The phases that ran with their wall times, and an end to all that is shown.
+    pub fn finish(self) -> Vec<(Phase, Duration)> {
+        if let Show::Bar(bar) = &self.show {
+            bar.finish_and_clear();
+        }
+        self.times
+            .into_inner()
+            .unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+fn bar() -> ProgressBar {
+    let bar = ProgressBar::with_draw_target(Some(1000), ProgressDrawTarget::stderr());
+    if let Ok(style) = ProgressStyle::with_template("{msg:9} {wide_bar} {percent:>3} %  {elapsed}")
+    {
+        bar.set_style(style);
+    }
+    bar
+}
+
+impl Observer for Progress {
+    fn started(&self, phase: Phase) {
+        match &self.show {
+            Show::Nothing => {}
+            Show::Bar(bar) => {
+                bar.set_message(phase.to_string());
+                bar.set_position(0);
+                bar.tick();
+            }
+            Show::Lines(tenth) => {
+                *tenth.lock().unwrap_or_else(PoisonError::into_inner) = 0;
+                text::warn(&format!("{phase} ..."));
+            }
+        }
+    }
+
+    fn advanced(&self, phase: Phase, share: f32) {
+        match &self.show {
+            Show::Nothing => {}
+            Show::Bar(bar) => bar.set_position((share * 1000.0) as u64),
+            Show::Lines(shown) => {
+                let tenth = (share * 10.0) as u32;
+                let mut shown = shown.lock().unwrap_or_else(PoisonError::into_inner);
+                if tenth > *shown && tenth < 10 {
+                    *shown = tenth;
+                    text::warn(&format!("{phase} {tenth}0 %"));
+                }
+            }
+        }
+    }
+
+    fn finished(&self, phase: Phase, wall: Duration) {
+        if let Show::Lines(_) = &self.show {
+            text::warn(&format!("{phase} {:.2} s", wall.as_secs_f64()));
+        }
+        let mut times = self.times.lock().unwrap_or_else(PoisonError::into_inner);
+        times.push((phase, wall));
+    }
+
+    fn cancelled(&self) -> bool {
+        interrupt::asked()
+    }
+}
