@@ -6,7 +6,7 @@ use super::fault::{Fault, Result};
 use super::limits::Limits;
 use super::materials::Materials;
 use super::nodes::Placed;
-use super::primitive::{Primitive, Reader, cross, too_many_triangles};
+use super::primitive::{Primitive, Reader, check_triangles, check_vertices, cross};
 use super::warnings::Warnings;
 use crate::scene::{Material, Mesh};
 use glam::{DMat3, DMat4, DVec3, Vec2, Vec3};
@@ -37,8 +37,9 @@ pub(super) fn geometry(
         document,
         buffers,
         materials: Materials::new(document),
-        left: limits.triangles,
         limits,
+        triangles: 0,
+        vertices: 0,
     };
     let mut meshes: Vec<Option<Vec<Primitive>>> = Vec::new();
     meshes.resize_with(document.root.meshes.len(), || None);
@@ -135,16 +136,8 @@ fn join(instances: &[Instance<'_>], origin: DVec3, limits: &Limits) -> Result<Me
     };
     let triangles = sum(|p| p.triangles.len());
     let vertices = sum(|p| p.positions.len());
-    if triangles > limits.triangles {
-        return Err(too_many_triangles("scene", limits));
-    }
-    if vertices > limits.vertices {
-        return Err(Fault::new(
-            "scene",
-            format!("more than {} vertices", limits.vertices),
-            "simplify the scene, or raise the limit `vertices`",
-        ));
-    }
+    check_triangles(triangles, limits, "scene")?;
+    check_vertices(vertices, limits, "scene")?;
     let mut mesh = Mesh::default();
     mesh.positions.reserve_exact(vertices as usize);
     mesh.normals.reserve_exact(vertices as usize);

@@ -17,16 +17,18 @@ const SUPPORTED: &[&str] = &[
 /// A parsed file.
 pub(super) struct Document {
     pub(super) root: Root,
-    /// The same untyped, for numbers that the typed form rounds to f32.
-    pub(super) value: Value,
+    /// The nodes untyped: the typed form rounds their numbers to f32.
+    pub(super) nodes: Value,
 }
 
 impl Document {
     /// Parses, and refuses versions and required extensions that are not known.
     pub(super) fn parse(json: &[u8], limits: &Limits, warnings: &mut Warnings) -> Result<Self> {
         check_size(json, limits)?;
-        let value: Value = deserialize::from_slice(json).map_err(|e| malformed(&e))?;
+        let mut value: Value = deserialize::from_slice(json).map_err(|e| malformed(&e))?;
         check_version(&value)?;
+        let nodes = value.get_mut("nodes").map(Value::take).unwrap_or_default();
+        drop(value);
         let root: Root = deserialize::from_slice(json).map_err(|e| malformed(&e))?;
         check_required(&root.extensions_required)?;
         for name in &root.extensions_used {
@@ -37,7 +39,7 @@ impl Document {
         if !root.animations.is_empty() {
             warnings.add("animations are ignored: the scene is shown at rest");
         }
-        Ok(Self { root, value })
+        Ok(Self { root, nodes })
     }
 }
 
@@ -72,7 +74,7 @@ fn check_size(json: &[u8], limits: &Limits) -> Result<()> {
         }
     }
     // An object holds a handful of values on average, however large the scene.
-    if objects > limits.objects || values / 16 > limits.objects {
+    if objects > limits.objects || values / 8 > limits.objects {
         return Err(Fault::new(
             "JSON",
             format!("more than {} objects", limits.objects),

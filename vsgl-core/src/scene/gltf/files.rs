@@ -55,6 +55,13 @@ impl Files {
             .and_then(|file| file.take(self.left.get() + 1).read_to_end(&mut bytes))
             .map_err(|e| unreadable(&e))?;
         self.charge(bytes.len())?;
+        if bytes.starts_with(b"version https://git-lfs") {
+            return Err(Fault::new(
+                "file",
+                "is the stand-in of Git LFS for a file that was not fetched",
+                "run `git lfs pull` where it comes from",
+            ));
+        }
         Ok(bytes)
     }
 

@@ -21,7 +21,7 @@ struct Encoded<'a> {
     index: usize,
     bytes: Cow<'a, [u8]>,
     format: ImageFormat,
-    /// Size that its header names.
+    /// Texels by its header; those of 16 bits count twice.
     texels: u64,
 }
 
@@ -111,9 +111,7 @@ fn encoded<'a>(
             "convert it to PNG or JPEG",
         )
     })?;
-    let (width, height) = ImageReader::with_format(Cursor::new(&bytes[..]), format)
-        .into_dimensions()
-        .map_err(|e| undecodable(index, &e.to_string()))?;
+    let texels = texels(&bytes, format).map_err(|e| undecodable(index, &e.to_string()))?;
     if format == ImageFormat::Jpeg
         && bytes.windows(2).filter(|w| w == b"\xff\xda").count() > SCANS_MAX
     {
@@ -126,8 +124,17 @@ fn encoded<'a>(
         index,
         bytes,
         format,
-        texels: u64::from(width) * u64::from(height),
+        texels,
     })
+}
+
+/// Texels by the header; those of 16 bits count twice.
+fn texels(bytes: &[u8], format: ImageFormat) -> image::ImageResult<u64> {
+    let decoder = ImageReader::with_format(Cursor::new(bytes), format).into_decoder()?;
+    let (width, height) = decoder.dimensions();
+    let color = decoder.color_type();
+    let wide = u64::from(color.bytes_per_pixel() > color.channel_count());
+    Ok((u64::from(width) * u64::from(height)) << wide)
 }
 
 impl Encoded<'_> {
@@ -135,13 +142,14 @@ impl Encoded<'_> {
         let broken = |e: image::ImageError| undecodable(self.index, &e.to_string());
         let mut reader = ImageReader::with_format(Cursor::new(&self.bytes[..]), self.format);
         let mut limits = image::Limits::default();
-        // 16 bits in four channels, and as much again to work with.
-        limits.max_alloc = Some(self.texels * 16 + (16 << 20));
+        // Four channels, and as much again to work with.
+        limits.max_alloc = Some(self.texels * 8 + (16 << 20));
         reader.limits(limits);
         let decoder = reader.into_decoder().map_err(broken)?;
         let (width, height) = decoder.dimensions();
         let image = image::DynamicImage::from_decoder(decoder).map_err(broken)?;
-        let texels = image.into_rgba8().into_raw().as_chunks::<4>().0.to_vec();
+        // Four bytes become one texel in place.
+        let texels: Vec<[u8; 4]> = bytemuck::allocation::cast_vec(image.into_rgba8().into_raw());
         if texels.is_empty() {
             return Err(undecodable(self.index, "no texels"));
         }

@@ -1,18 +1,18 @@
 //! How much a file may ask for.
 
-/// What is read at most. The defaults keep the memory for a hostile file below about a gigabyte and hold every scene
-/// that this renderer can draw in reasonable time; raise them for larger ones.
+/// What is read at most. The defaults keep the memory for a hostile file below a gigabyte; raise them for scenes that
+/// need more.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Limits {
     /// Bytes of all files of the scene together. 512 MiB.
     pub file_bytes: u64,
     /// JSON objects; nodes, meshes, accessors and so on are one each. 2^20.
     pub objects: u64,
-    /// Triangles drawn, instances counted. 2^24.
+    /// Triangles drawn, instances counted. 2^23.
     pub triangles: u64,
-    /// Vertices drawn, instances counted. 2^24.
+    /// Vertices drawn, instances counted; triangles without normals have three each. 2^23.
     pub vertices: u64,
-    /// Texels of all images that materials use. 2^27.
+    /// Texels of all images that materials use; those of 16 bits count twice. 2^27.
     pub texels: u64,
 }
 
@@ -21,8 +21,8 @@ impl Default for Limits {
         Self {
             file_bytes: 512 << 20,
             objects: 1 << 20,
-            triangles: 1 << 24,
-            vertices: 1 << 24,
+            triangles: 1 << 23,
+            vertices: 1 << 23,
             texels: 1 << 27,
         }
     }

@@ -33,9 +33,13 @@ mod topology;
 mod uri;
 mod warnings;
 
+#[cfg(test)]
+mod tests;
+
 use super::Scene;
 use crate::error::Result;
 use buffers::Buffers;
+use container::Container;
 use document::Document;
 use files::Files;
 use std::path::Path;
@@ -69,11 +73,12 @@ pub fn load_with(path: &Path, limits: &Limits) -> Result<Scene> {
 
 fn read(path: &Path, limits: &Limits) -> fault::Result<Scene> {
     let files = Files::beside(path, limits.file_bytes)?;
-    let container = container::read(&files, path)?;
     let mut warnings = Warnings::default();
-    let document = Document::parse(&container.json, limits, &mut warnings)?;
+    let Container { json, bin } = container::read(&files, path)?;
+    let document = Document::parse(&json, limits, &mut warnings)?;
+    drop(json);
     let placed = nodes::walk(&document, &mut warnings)?;
-    let buffers = Buffers::new(&document, &files, container.bin);
+    let buffers = Buffers::new(&document, &files, bin);
     let geometry = assemble::geometry(&document, &buffers, &placed, limits, &mut warnings)?;
     let textures = images::decode(&document, &buffers, &files, &geometry.images, limits)?;
     let origin = geometry.origin;

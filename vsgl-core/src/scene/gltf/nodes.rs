@@ -15,20 +15,16 @@ pub(super) struct Placed<'a> {
 
 /// All nodes of the scene that hold anything, in the order of the file.
 pub(super) fn walk<'a>(document: &'a Document, warnings: &mut Warnings) -> Result<Vec<Placed<'a>>> {
-    let nodes = &document.root.nodes;
-    let mut seen = vec![false; nodes.len()];
+    let mut seen = Seen(vec![false; document.root.nodes.len()]);
     let mut placed = Vec::new();
     // A stack of our own: depth is the file's to choose.
-    let mut waiting: Vec<(usize, DMat4, String)> = roots(document, warnings)?;
-    while let Some((index, parent, place)) = waiting.pop() {
-        let node = lookup(nodes, "nodes", index, || place.clone())?;
-        if std::mem::replace(&mut seen[index], true) {
-            return Err(Fault::new(
-                place,
-                format!("nodes[{index}] is reached twice: nodes must form trees"),
-                "the file is broken; export it again",
-            ));
-        }
+    let mut waiting = Vec::new();
+    for (index, place) in roots(document, warnings)? {
+        seen.enter(index, || place.clone())?;
+        waiting.push((index, DMat4::IDENTITY));
+    }
+    while let Some((index, parent)) = waiting.pop() {
+        let node = &document.root.nodes[index];
         let world = parent * local(document, index)?;
         if !world.is_finite() {
             return Err(Fault::new(
@@ -38,7 +34,8 @@ pub(super) fn walk<'a>(document: &'a Document, warnings: &mut Warnings) -> Resul
             ));
         }
         for child in node.children.iter().flatten() {
-            waiting.push((child.value(), world, format!("nodes[{index}].children")));
+            seen.enter(child.value(), || format!("nodes[{index}].children"))?;
+            waiting.push((child.value(), world));
         }
         if node.skin.is_some() {
             warnings.add("skins are ignored: meshes are shown unbent");
@@ -51,8 +48,26 @@ pub(super) fn walk<'a>(document: &'a Document, warnings: &mut Warnings) -> Resul
     Ok(placed)
 }
 
-/// Where to begin: the default scene, else the first, else every node without a parent.
-fn roots(document: &Document, warnings: &mut Warnings) -> Result<Vec<(usize, DMat4, String)>> {
+/// Which nodes have been reached.
+struct Seen(Vec<bool>);
+
+impl Seen {
+    /// Notes a node; refuses one that does not exist, or that was there before: nodes must form trees.
+    fn enter(&mut self, index: usize, place: impl Fn() -> String) -> Result<()> {
+        lookup(&self.0, "nodes", index, &place)?;
+        if std::mem::replace(&mut self.0[index], true) {
+            return Err(Fault::new(
+                place(),
+                format!("nodes[{index}] is reached twice: nodes must form trees"),
+                "the file is broken; export it again",
+            ));
+        }
+        Ok(())
+    }
+}
+
+/// Where to begin, with its place in the JSON: the default scene, else the first, else every node without a parent.
+fn roots(document: &Document, warnings: &mut Warnings) -> Result<Vec<(usize, String)>> {
     let root = &document.root;
     let index = match root.scene {
         Some(scene) => scene.value(),
@@ -61,7 +76,7 @@ fn roots(document: &Document, warnings: &mut Warnings) -> Result<Vec<(usize, DMa
             if !root.nodes.is_empty() {
                 warnings.add("the file has no scene: all nodes are shown");
             }
-            return Ok(parentless(root.nodes.as_slice()));
+            return Ok(parentless(&root.nodes));
         }
     };
     let scene = lookup(&root.scenes, "scenes", index, || "scene".into())?;
@@ -71,32 +86,25 @@ fn roots(document: &Document, warnings: &mut Warnings) -> Result<Vec<(usize, DMa
             root.scenes.len()
         ));
     }
-    let begin = |node: &gltf::json::Index<Node>| {
-        (
-            node.value(),
-            DMat4::IDENTITY,
-            format!("scenes[{index}].nodes"),
-        )
-    };
-    Ok(scene.nodes.iter().map(begin).collect())
+    let place = format!("scenes[{index}].nodes");
+    let nodes = scene.nodes.iter();
+    Ok(nodes.map(|node| (node.value(), place.clone())).collect())
 }
 
-fn parentless(nodes: &[Node]) -> Vec<(usize, DMat4, String)> {
+fn parentless(nodes: &[Node]) -> Vec<(usize, String)> {
     let mut is_child = vec![false; nodes.len()];
     for child in nodes.iter().flat_map(|n| n.children.iter().flatten()) {
         if let Some(flag) = is_child.get_mut(child.value()) {
             *flag = true;
         }
     }
-    (0..nodes.len())
-        .filter(|&i| !is_child[i])
-        .map(|i| (i, DMat4::IDENTITY, "nodes".into()))
-        .collect()
+    let roots = (0..nodes.len()).filter(|&i| !is_child[i]);
+    roots.map(|i| (i, "nodes".into())).collect()
 }
 
 /// The transform of a node to its parent's space, in the precision of the JSON text.
 fn local(document: &Document, index: usize) -> Result<DMat4> {
-    let node = &document.value["nodes"][index];
+    let node = &document.nodes[index];
     if let Some(m) = numbers::<16>(&node["matrix"]) {
         return Ok(DMat4::from_cols_array(&m));
     }

@@ -17,9 +17,9 @@ use std::collections::HashMap;
 /// Indexed triangles with only those vertices that they use.
 pub(super) struct Primitive {
     pub(super) positions: Vec<Vec3>,
-    /// One a vertex; zero, or of any length, where the file has none that can be used.
+    /// One a vertex, of any length; zero where the file has none that can be used.
     pub(super) normals: Vec<Vec3>,
-    /// One a vertex, or none at all.
+    /// One a vertex; empty if the material needs none.
     pub(super) texcoords: Vec<Vec2>,
     pub(super) triangles: Vec<[u32; 3]>,
     /// Index into the scene's materials.
@@ -31,9 +31,10 @@ pub(super) struct Reader<'a> {
     pub(super) document: &'a Document,
     pub(super) buffers: &'a Buffers<'a>,
     pub(super) materials: Materials<'a>,
-    /// Triangles that may still be decoded.
-    pub(super) left: u64,
     pub(super) limits: &'a Limits,
+    /// Triangles and vertices that were read so far, each mesh once.
+    pub(super) triangles: u64,
+    pub(super) vertices: u64,
 }
 
 impl<'a> Reader<'a> {
@@ -53,23 +54,24 @@ impl<'a> Reader<'a> {
         };
         note_ignored(primitive, warnings);
         let vertices = positions.len();
-        let triangles = self.triangles(primitive, topology, vertices, place)?;
-        let normals = self.vectors::<3>(primitive, Semantic::Normals, place)?;
-        check_len(normals.as_ref(), vertices, "NORMAL", place)?;
-
-        let (triangles, sources) = if normals.is_some() {
-            compact(triangles, vertices)
-        } else {
-            unshared(triangles)
-        };
-        let positions = sources
-            .iter()
-            .map(|&source| position(&positions, source, place))
-            .collect::<Result<Vec<_>>>()?;
-        let triangles = with_area(triangles, &positions);
+        let triangles = self.triangles(primitive, topology, &positions, place)?;
         if triangles.is_empty() {
             return Ok(None);
         }
+        let normals = self.vectors::<3>(primitive, Semantic::Normals, place)?;
+        check_len(normals.as_ref(), vertices, "NORMAL", place)?;
+        let most = match &normals {
+            Some(normals) => normals.len().min(3 * triangles.len()),
+            None => 3 * triangles.len(),
+        };
+        self.vertices += most as u64;
+        check_vertices(self.vertices, self.limits, place)?;
+        let (triangles, sources) = match &normals {
+            Some(_) => compact(triangles, vertices),
+            None => unshared(triangles),
+        };
+        let at = |&source: &u32| Vec3::from(positions.get(source));
+        let positions = sources.iter().map(at).collect();
         let normals = sources.iter().map(|&source| match &normals {
             Some(normals) => usable(Vec3::from(normals.get(source))),
             None => Vec3::ZERO,
@@ -89,24 +91,32 @@ impl<'a> Reader<'a> {
         }))
     }
 
-    /// Triangles as indices of the file's vertices, all in range.
+    /// Triangles that have an area, as indices of the file's vertices.
     fn triangles(
         &mut self,
         primitive: &mesh::Primitive,
         topology: Topology,
-        vertices: usize,
+        positions: &Vectors<'_, 3>,
         place: &str,
     ) -> Result<Vec<[u32; 3]>> {
+        let vertices = positions.len();
+        let place_of_positions = format!("{place}.attributes.POSITION");
         let place = format!("{place}.indices");
         let indices = primitive
             .indices
             .map(|index| Indices::new(self.document, self.buffers, index, || place.clone()))
             .transpose()?;
-        let count = topology.triangles(indices.as_ref().map_or(vertices, Indices::len));
-        self.left = self
-            .left
-            .checked_sub(count as u64)
-            .ok_or_else(|| too_many_triangles(&place, self.limits))?;
+        let corners = indices.as_ref().map_or(vertices, Indices::len);
+        if topology == Topology::List && !corners.is_multiple_of(3) {
+            return Err(Fault::new(
+                place,
+                format!("{corners} corners do not make whole triangles"),
+                "the file is broken; export it again",
+            ));
+        }
+        let count = topology.triangles(corners);
+        self.triangles = self.triangles.saturating_add(count as u64);
+        check_triangles(self.triangles, self.limits, &place)?;
         let vertex = |corner: usize| {
             let index = match &indices {
                 Some(indices) => indices.get(corner),
@@ -122,11 +132,20 @@ impl<'a> Reader<'a> {
                 "the file is broken; export it again",
             ))
         };
-        let triangle = |i| {
+        let mut triangles = Vec::new();
+        for i in 0..count {
             let [a, b, c] = topology.triangle(i);
-            Ok([vertex(a)?, vertex(b)?, vertex(c)?])
-        };
-        (0..count).map(triangle).collect()
+            let triangle = [vertex(a)?, vertex(b)?, vertex(c)?];
+            let mut corners = [Vec3::ZERO; 3];
+            for (corner, v) in corners.iter_mut().zip(triangle) {
+                *corner = position(positions, v, &place_of_positions)?;
+            }
+            // Tested here, so that a file of nothing but points costs no memory.
+            if cross(corners) != DVec3::ZERO {
+                triangles.push(triangle);
+            }
+        }
+        Ok(triangles)
     }
 
     fn texcoords(
@@ -140,7 +159,7 @@ impl<'a> Reader<'a> {
         let semantic = Semantic::TexCoords(mapping.set);
         let Some(texcoords) = self.vectors::<2>(primitive, semantic, place)? else {
             warnings.add("textured surfaces without texture coordinates show one texel");
-            return Ok(Vec::new());
+            return Ok(vec![Vec2::ZERO; sources.len()]);
         };
         let needed = sources.iter().max().map_or(0, |&last| last as usize + 1);
         check_len(Some(&texcoords), needed, "TEXCOORD", place)?;
@@ -170,13 +189,28 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// The refusal of more triangles than the limits allow.
-pub(super) fn too_many_triangles(place: &str, limits: &Limits) -> Fault {
-    Fault::new(
+/// Refuses more triangles than the limits allow.
+pub(super) fn check_triangles(count: u64, limits: &Limits, place: &str) -> Result<()> {
+    if count <= limits.triangles {
+        return Ok(());
+    }
+    Err(Fault::new(
         place,
         format!("more than {} triangles", limits.triangles),
         "simplify the scene, or raise the limit `triangles`",
-    )
+    ))
+}
+
+/// Refuses more vertices than the limits allow.
+pub(super) fn check_vertices(count: u64, limits: &Limits, place: &str) -> Result<()> {
+    if count <= limits.vertices.min(u32::MAX.into()) {
+        return Ok(());
+    }
+    Err(Fault::new(
+        place,
+        format!("more than {} vertices", limits.vertices),
+        "simplify the scene, or raise the limit `vertices`",
+    ))
 }
 
 fn topology(
@@ -232,7 +266,7 @@ fn position(positions: &Vectors<'_, 3>, source: u32, place: &str) -> Result<Vec3
         return Ok(position);
     }
     Err(Fault::new(
-        format!("{place}.attributes.POSITION"),
+        place,
         format!("vertex {source} is at {position}, which is no place"),
         "the file is broken; export it again",
     ))
@@ -282,13 +316,7 @@ fn unshared(triangles: Vec<[u32; 3]>) -> (Vec<[u32; 3]>, Vec<u32>) {
     (numbered, triangles.into_iter().flatten().collect())
 }
 
-/// Without the triangles that are a line or a point. Exact: the corners are f32, the test is f64.
-pub(super) fn with_area(mut triangles: Vec<[u32; 3]>, positions: &[Vec3]) -> Vec<[u32; 3]> {
-    triangles.retain(|t| cross(t.map(|v| positions[v as usize])) != DVec3::ZERO);
-    triangles
-}
-
-/// Twice the area of a triangle along its normal.
+/// Twice the area of a triangle along its normal. Zero for a line or a point: the corners are f32, this is f64.
 pub(super) fn cross(corners: [Vec3; 3]) -> DVec3 {
     let [a, b, c] = corners.map(|p| p.as_dvec3());
     (b - a).cross(c - a)

@@ -9,7 +9,7 @@ pub(super) enum Topology {
 }
 
 impl Topology {
-    /// Number of triangles from `count` vertices. What is left over makes none.
+    /// Number of whole triangles from `count` vertices.
     pub(super) fn triangles(self, count: usize) -> usize {
         match self {
             Self::List => count / 3,
