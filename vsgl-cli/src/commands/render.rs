@@ -83,8 +83,9 @@ fn work<B: Backend>(
         written.push(write(job, backend.name(), out, &image, format, file)?);
     }
     if let Some(dump) = dump {
-        for path in dump.write(backend, &frame)? {
-            written.push(Written::new(path, "PNG"));
+        let metadata = metadata(job, job.metadata(backend.name()), &job.words());
+        for (path, format) in dump.write(backend, &frame, &metadata)? {
+            written.push(Written::new(path.to_string_lossy().into_owned(), format));
         }
     }
     let mut seconds = vec![("scene".to_owned(), prepared)];
@@ -243,13 +244,11 @@ impl Report<'_> {
         }
         out += &format!("  {:<8} {total:>9.3} s\n", "all");
         let (width, height) = self.job.view.pixels();
-        out += "written\n";
+        out += &format!("written   {width}x{height}\n");
         for file in &self.written {
             out += &format!("  {}  {}", file.path, file.format);
             if let Some(stops) = file.exposure {
-                out += &format!(", {width}x{height}, exposure {stops:+.2} stops");
-            } else if file.format == "EXR" {
-                out += &format!(", {width}x{height}, linear");
+                out += &format!(", exposure {stops:+.2} stops");
             }
             out += "\n";
         }
