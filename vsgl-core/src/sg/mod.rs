@@ -6,10 +6,12 @@
 
 pub mod asg;
 pub mod cosine;
+pub mod filtering;
 pub mod glossy;
 pub mod hemisphere;
 pub mod lobe;
 pub mod polar;
 pub mod vmf;
+pub mod warp;
 
 pub use lobe::{SHARPNESS_MAX, SgLobe};
