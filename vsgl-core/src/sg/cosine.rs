@@ -30,7 +30,7 @@ use glam::Vec3;
 use super::lobe::{self, SHARPNESS_MAX};
 use super::polar::PolarMoments;
 use super::{hemisphere, vmf};
-use crate::math::elementary::{erf_integral, exp};
+use crate::math::elementary::{erf_integral, exp, log};
 
 /// Sharpness of the lobe that stands for a clamped cosine in the papers of 2015 and 2016, and agrees with Toksvig's map.
 pub const COSINE_SHARPNESS_2016: f32 = 2.0;
@@ -52,6 +52,14 @@ pub fn upper(sharpness: f32) -> f32 {
 pub fn lower(sharpness: f32) -> f32 {
     let m = PolarMoments::new(sharpness);
     TAU * (m.decay * m.lower)
+}
+
+/// Logarithm of [`lower`], finite for every sharpness: about `−κ`.
+#[inline(always)]
+#[must_use]
+pub fn log_lower(sharpness: f32) -> f32 {
+    let k = sharpness.min(SHARPNESS_MAX);
+    log(TAU * PolarMoments::new(k).lower) - k
 }
 
 /// Cosine taken at the axis: `A(κ) max(z, 0)` \[sr\]. The limit of sharp lobes.

@@ -19,7 +19,8 @@ pub const SHARPNESS_MAX: f32 = 2_199_023_255_552.0;
 pub struct SgLobe {
     /// Unit vector in which the lobe peaks.
     pub axis: Vec3,
-    /// Sharpness, 0 (constant) to [`SHARPNESS_MAX`]; about the inverse of the angular variance in rad².
+    /// Sharpness, 0 (constant) to [`SHARPNESS_MAX`], twice that for a product; about the inverse of the angular variance
+    /// in rad².
     pub sharpness: f32,
     /// Natural logarithm of the peak value.
     pub log_amplitude: f32,
@@ -140,9 +141,26 @@ pub fn product(a_axis: Vec3, a_sharpness: f32, b_axis: Vec3, b_sharpness: f32) -
         -2.0 * one_minus_cos(a_axis, b_axis) * smaller / (ra + rb + length).max(1.0);
     SgLobe {
         axis,
-        sharpness: (larger * length).min(SHARPNESS_MAX),
+        sharpness: larger * length,
         log_amplitude,
     }
+}
+
+/// Sharpness and logarithm of the amplitude of [`product`], from the squared chord `|ξ_a − ξ_b|²` of the axes, 0 … 4.
+///
+/// For axes known by the angle between them; both results keep their relative accuracy up to opposite axes.
+#[inline(always)]
+#[must_use]
+pub fn product_by_chord(a_sharpness: f32, b_sharpness: f32, chord2: f32) -> (f32, f32) {
+    let a = a_sharpness.min(SHARPNESS_MAX);
+    let b = b_sharpness.min(SHARPNESS_MAX);
+    let larger = a.max(b);
+    let ratio = a.min(b) / larger.max(f32::MIN_POSITIVE);
+    // Both terms are positive, also for opposite axes, where `(1 + ratio)² − ratio chord²` would cancel.
+    let apart = 1.0 - ratio;
+    let length = (apart * apart + ratio * (4.0 - chord2).max(0.0)).sqrt();
+    let log_amplitude = -chord2 * a.min(b) / (1.0 + ratio + length);
+    (larger * length, log_amplitude)
 }
 
 /// `∫ G_a G_b dω` over the sphere \[sr\]: `e^{log_amplitude} A(sharpness)` of the product.
