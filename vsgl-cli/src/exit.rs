@@ -33,7 +33,7 @@ pub type Result<T> = std::result::Result<T, Failure>;
 pub const EXIT_CODES: &str = "\
 Exit codes:
   0    done
-  1    compare: a metric is over the limit of --fail-above
+  1    compare: a metric is over the limit of --fail-above; lobe: an error is over what is stated
   2    wrong arguments
   3    input that cannot be read or used
   5    output that cannot be written

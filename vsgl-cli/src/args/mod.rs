@@ -1,12 +1,14 @@
 //! What was typed: the command line as clap reads it. What it means is not decided here.
 
 mod compare;
+mod lobe;
 mod render;
 mod scene;
 mod settings;
 mod words;
 
 pub use compare::{CompareArgs, Limit};
+pub use lobe::LobeArgs;
 pub use render::{BackendName, InfoArgs, OutputArgs, RenderArgs, When};
 pub use scene::{SceneArgs, ViewArgs};
 pub use settings::SettingsArgs;
@@ -41,6 +43,8 @@ pub enum Command {
     Info(Box<InfoArgs>),
     /// Compare a picture with a reference: error metrics, limits, a false-colour map
     Compare(CompareArgs),
+    /// Judge the mathematics against exact values, and draw it
+    Lobe(LobeArgs),
     /// Print a completion script for a shell
     Completions(CompletionsArgs),
     /// Print the manual page of the program or of a command

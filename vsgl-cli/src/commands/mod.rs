@@ -4,6 +4,7 @@ mod compare;
 mod dump;
 mod facts;
 mod info;
+pub mod lobe;
 mod pages;
 mod render;
 
@@ -22,6 +23,7 @@ pub fn run(cli: Cli) -> Result<()> {
         Command::Render(args) => render::run(&args),
         Command::Info(args) => info::run(&args),
         Command::Compare(args) => compare::run(&args),
+        Command::Lobe(args) => lobe::run(&args),
         Command::Completions(args) => pages::completions(&args),
         Command::Man(args) => pages::man(&args),
     }
