@@ -86,7 +86,11 @@ impl Picture {
             let pixels = r.iter().zip(g).zip(b);
             return Some(pixels.map(|((&r, &g), &b)| [r, g, b]).collect());
         }
-        let grey = self.channel(&name("Y")).or_else(|| self.channel(layer))?;
+        // With an X beside it, Y is a coordinate.
+        let luma = self
+            .channel(&name("Y"))
+            .filter(|_| self.channel(&name("X")).is_none());
+        let grey = luma.or_else(|| self.channel(layer))?;
         Some(grey.iter().map(|&v| [v; 3]).collect())
     }
 
@@ -124,6 +128,7 @@ mod tests {
         assert_eq!(picture.rgb("indirect"), Some(vec![[4.0, 5.0, 6.0]]));
         assert_eq!(picture.rgb("Z"), Some(vec![[7.0; 3]]));
         assert_eq!(picture.rgb("direct"), None);
+        assert_eq!(picture.rgb("N"), None);
         assert!(picture.layers().contains(&"indirect".to_owned()));
     }
 }

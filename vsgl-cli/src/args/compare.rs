@@ -37,7 +37,7 @@ pub struct CompareArgs {
     #[arg(long, value_name = "NAME", default_value = "")]
     pub layer: String,
     /// Compare the means of blocks of PIXELS by PIXELS as well [default: 8, if a block fits]
-    #[arg(long = "box", value_name = "PIXELS", value_parser = clap::value_parser!(u32).range(1..=65_536))]
+    #[arg(long = "box", value_name = "PIXELS", allow_hyphen_values = true, value_parser = clap::value_parser!(u32).range(1..=65_536))]
     pub side: Option<u32>,
     /// Print these metrics alone
     #[arg(long, value_name = "NAME[,NAME]", value_delimiter = ',', value_parser = metric)]

@@ -21,11 +21,14 @@ use clap_complete::Shell;
 #[derive(Debug, Parser)]
 #[command(
     name = "vsgl",
+    bin_name = "vsgl",
     version,
     about = "Glossy one-bounce indirect light by virtual spherical Gaussian lights",
     after_long_help = crate::exit::EXIT_CODES,
     subcommand_required = true,
     arg_required_else_help = true,
+    // The last of a flag wins, so that scripts can add to a command.
+    args_override_self = true,
     max_term_width = 110,
 )]
 pub struct Cli {

@@ -65,7 +65,12 @@ pub struct OutputArgs {
     #[arg(long, value_enum, default_value = "auto")]
     pub backend: BackendName,
     /// Threads of the CPU, 0 for one a core; the picture is the same for any number
-    #[arg(long, value_name = "N", default_value_t = 0)]
+    #[arg(
+        long,
+        value_name = "N",
+        allow_hyphen_values = true,
+        default_value_t = 0
+    )]
     pub threads: usize,
     /// Print one JSON document on standard output, and nothing else there
     #[arg(long)]

@@ -17,7 +17,7 @@ pub struct SceneArgs {
     #[arg(long, value_name = "ex,ey,ez:tx,ty,tz", value_parser = LookAt::parse, allow_hyphen_values = true)]
     pub look_at: Option<LookAt>,
     /// Vertical field of view of --look-at [default: 45]
-    #[arg(long, value_name = "DEGREES", value_parser = field_of_view, requires = "look_at")]
+    #[arg(long, value_name = "DEGREES", allow_hyphen_values = true, value_parser = field_of_view, requires = "look_at")]
     pub fov: Option<f64>,
     /// Add a spot light at px,py,pz that points at tx,ty,tz (repeatable)
     ///
@@ -35,15 +35,15 @@ pub struct SceneArgs {
 #[command(next_help_heading = "Picture")]
 pub struct ViewArgs {
     /// Size of the picture in pixels [default: 640x360]
-    #[arg(long, value_name = "WxH", value_parser = Size::parse)]
+    #[arg(long, value_name = "WxH", allow_hyphen_values = true, value_parser = Size::parse)]
     pub size: Option<Size>,
     /// N by N samples in each pixel [default: 1]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=64))]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u32).range(1..=64))]
     pub aa: Option<u32>,
     /// Render every Nth pixel of every Nth row of that size; the output is N times smaller [default: 1]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=65_536))]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u32).range(1..=65_536))]
     pub stride: Option<u32>,
     /// Seed of random numbers; the present methods draw none, so it changes nothing [default: 0]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_hyphen_values = true)]
     pub seed: Option<u64>,
 }

@@ -24,13 +24,13 @@ pub struct SettingsArgs {
     #[arg(long, value_parser = PossibleValuesParser::new(Method::WORDS))]
     pub method: Option<String>,
     /// Number of virtual lights [default: 1024]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_hyphen_values = true)]
     pub lights: Option<String>,
     /// Texels along a side of each reflective shadow map [default: 512]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_hyphen_values = true)]
     pub rsm: Option<String>,
     /// Overlap of filtered kernels [default: 1]
-    #[arg(long, value_name = "K")]
+    #[arg(long, value_name = "K", allow_hyphen_values = true)]
     pub kernel: Option<String>,
     /// Density that filtered kernels are drawn from
     #[arg(long, value_parser = PossibleValuesParser::new(PdfMethod::WORDS))]

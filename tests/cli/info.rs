@@ -1,0 +1,94 @@
+//! `vsgl info`.
+
+use crate::run::Folder;
+use serde_json::Value;
+
+#[test]
+fn without_a_scene_it_lists_what_there_is() {
+    let folder = Folder::new();
+    let text = folder.run("info").ok();
+    for word in [
+        "cornell",
+        "paper-2016",
+        "cpu",
+        env!("CARGO_PKG_VERSION"),
+        "bisections",
+    ] {
+        assert!(text.contains(word), "no {word} in\n{text}");
+    }
+    let document = folder.run("info --json").json();
+    assert_eq!(document["schema_version"], 1);
+    let samples = document["samples"].as_array().expect("a list");
+    assert!(samples.iter().any(|s| s["name"] == "columns"));
+    let presets = document["presets"].as_array().expect("a list");
+    assert_eq!(presets[0]["settings"]["lights"], "1024");
+}
+
+#[test]
+fn every_sample_has_a_plan() {
+    let folder = Folder::new();
+    let list = folder.run("info --json").json();
+    for sample in list["samples"].as_array().expect("a list") {
+        let name = sample["name"]
+            .as_str()
+            .expect("a string")
+            .replace(":N", ":2");
+        let document = folder.run(&format!("info sample:{name} --json")).json();
+        assert_eq!(document["plan"][0]["topic"], "bounce", "{name}");
+        assert_eq!(document["plan"][0]["runs"], true, "{name}");
+        assert!(document["cameras"][0]["fov_degrees"].is_number(), "{name}");
+        assert!(
+            !document["lights"].as_array().expect("a list").is_empty(),
+            "{name}"
+        );
+    }
+}
+
+fn runs(document: &Value, topic: &str) -> Option<bool> {
+    let plan = document["plan"].as_array()?;
+    plan.iter().find(|r| r["topic"] == topic)?["runs"].as_bool()
+}
+
+#[test]
+fn the_plan_follows_the_flags() {
+    let folder = Folder::new();
+    let plan = |flags: &str| {
+        folder
+            .run(&format!("info sample:cornell --json {flags}"))
+            .json()
+    };
+    assert_eq!(runs(&plan(""), "occlusion"), Some(true));
+    assert_eq!(runs(&plan("--occlusion none"), "occlusion"), Some(false));
+    assert_eq!(runs(&plan("--clustering filtered"), "pdf"), Some(true));
+    let dark = plan("--only-added-lights");
+    assert_eq!(runs(&dark, "bounce"), Some(false));
+    assert!(
+        dark["warnings"][0]
+            .as_str()
+            .is_some_and(|w| w.contains("no light"))
+    );
+    let text = folder.run("info sample:cornell --occlusion none").ok();
+    assert!(text.contains("passes through walls"), "{text}");
+}
+
+#[test]
+fn added_lights_and_cameras_are_where_they_were_put() {
+    let folder = Folder::new();
+    let flags = "--spot 1,2,3:1,0,3:4,5,6:30:20 --look-at 0,1,2:0,1,0 --fov 40";
+    let document = folder
+        .run(&format!("info sample:cornell --json {flags}"))
+        .json();
+    let light = document["lights"]
+        .as_array()
+        .expect("a list")
+        .last()
+        .expect("lights");
+    let number = |value: &Value| value.as_f64().expect("a number");
+    for (lane, place) in [1.0, 2.0, 3.0].into_iter().enumerate() {
+        assert!((number(&light["position"][lane]) - place).abs() < 1e-6);
+    }
+    assert!((number(&light["axis"][1]) + 1.0).abs() < 1e-6);
+    assert!((number(&light["outer_degrees"]) - 30.0).abs() < 1e-4);
+    assert!((number(&document["camera"]["fov_degrees"]) - 40.0).abs() < 1e-4);
+    assert!((number(&document["camera"]["eye"][2]) - 2.0).abs() < 1e-6);
+}

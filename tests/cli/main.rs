@@ -1,0 +1,9 @@
+//! The program from outside: what it prints and writes, and how it ends, for good input and for bad.
+
+mod compare;
+mod errors;
+mod help;
+mod info;
+mod interrupt;
+mod render;
+mod run;
