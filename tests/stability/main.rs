@@ -1,3 +1,7 @@
-//! Numerical stability: the mathematics against exact values, and its contracts at the edge.
+//! Numerical stability: the mathematics against exact values, its contracts at the edge, and its two texts.
 
 mod accuracy;
+mod directions;
+mod edges;
+mod lanes;
+mod surfaces;

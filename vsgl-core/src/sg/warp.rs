@@ -68,8 +68,11 @@ pub fn reflection_asg_local(view: Vec3, alpha_x: f32, alpha_y: f32) -> AsgLobe {
     let m11 = 0.25 * (px * (vx * vx) + py * (vy * vy));
     let m22 = step * step * (px * (vy * vy) + py * (vx * vx));
     let m12 = 0.5 * step * ((py - px) * (vx * vy));
+    // Relative to their mean: the squares below would leave the range of f32.
     let middle = 0.5 * (m11 + m22);
-    let apart = 0.5 * (m11 - m22);
+    let unit = 1.0 / middle;
+    let apart = 0.5 * (m11 - m22) * unit;
+    let m12 = m12 * unit;
     let radius = (apart * apart + m12 * m12).sqrt();
     // Eigenvector of the larger eigenvalue, from the better conditioned of its two rows.
     let first = apart >= 0.0;
@@ -79,13 +82,13 @@ pub fn reflection_asg_local(view: Vec3, alpha_x: f32, alpha_y: f32) -> AsgLobe {
         (m12, radius - apart)
     };
     let length = (ex * ex + ey * ey).sqrt();
-    let round = length < 1e-12 * middle;
+    let round = length < 1e-12;
     let inverse = 1.0 / (if round { 1.0 } else { length });
     let (ex, ey) = (
         if round { 1.0 } else { ex * inverse },
         if round { 0.0 } else { ey * inverse },
     );
-    let larger = middle + radius;
+    let larger = middle + middle * radius;
     // Product of the eigenvalues is the determinant, which does not cancel.
     let determinant = 0.25 * step * step * (px * py);
     AsgLobe {
