@@ -17,7 +17,7 @@ fn write(folder: &Folder, name: &str, layer: &str, values: &[f32]) {
     };
     picture.push(layer, ["R", "G", "B"], &pixels);
     let mut file = std::io::Cursor::new(Vec::new());
-    exr::write(&mut file, &picture, &Metadata::default()).expect("written to memory");
+    exr::write(&mut file, picture, &Metadata::default()).expect("written to memory");
     folder.write(name, file.into_inner());
 }
 

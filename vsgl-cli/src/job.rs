@@ -7,7 +7,7 @@ pub use choose::settings;
 pub use repeat::settings_json;
 
 use crate::args::{SceneArgs, SettingsArgs, Size, ViewArgs};
-use crate::exit::Result;
+use crate::exit::{Failure, Result};
 use std::path::Path;
 use vsgl_core::plan::Plan;
 use vsgl_core::render::View;
@@ -48,8 +48,8 @@ impl Job {
     /// Reads the scene and decides everything.
     ///
     /// # Errors
-    /// [`crate::exit::Failure::Usage`] for arguments that do not fit the scene or each other,
-    /// [`crate::exit::Failure::Input`] for files that cannot be read.
+    /// [`Failure::Usage`] for arguments that do not fit the scene or each other,
+    /// [`Failure::Input`] for files that cannot be read.
     pub fn new(scene: &SceneArgs, view: &ViewArgs, settings: &SettingsArgs) -> Result<Self> {
         let settings = choose::settings(settings)?;
         let size = view.size.unwrap_or(SIZE);
@@ -66,6 +66,7 @@ impl Job {
             stride: view.stride.unwrap_or(1),
         }
         .checked()?;
+        check_maps(lights.len(), settings.rsm)?;
         let facts = SceneFacts::new(&read, &lights, &camera);
         let plan = Plan::new(&facts, &settings)?;
         if facts.triangles > 0 && lights.is_empty() {
@@ -92,6 +93,21 @@ const SIZE: Size = Size {
     width: 640,
     height: 360,
 };
+
+/// Most texels of all reflective shadow maps together: about 6 GB with all that is made of them.
+const TEXELS_MAX: u64 = 1 << 25;
+
+/// Refuses more maps than fit into memory.
+fn check_maps(lights: usize, side: u32) -> Result<()> {
+    let texels = (lights as u64).saturating_mul(u64::from(side).pow(2));
+    if texels <= TEXELS_MAX {
+        return Ok(());
+    }
+    let fitting = (TEXELS_MAX as f64 / lights as f64).sqrt() as u32;
+    Err(Failure::Usage(format!(
+        "{lights} lights with --rsm {side} are {texels} texels, where {TEXELS_MAX} fit; give --rsm {fitting} or fewer lights"
+    )))
+}
 
 fn read_scene(name: &str) -> Result<Scene> {
     let scene = match name.strip_prefix("sample:") {

@@ -21,13 +21,17 @@ pub mod progress;
 mod text;
 
 use clap::Parser;
+use exit::Failure;
 use std::process::ExitCode;
 
 /// Reads the command line, does what it says, and reports a failure on standard error.
 pub fn main() -> ExitCode {
     // Wrong arguments, `--help` and `--version` end here, with the codes of `exit`.
     let cli = args::Cli::parse();
-    match commands::run(cli) {
+    // A panic is a fault of this program. Unwinding has removed partial files and printed the place by now.
+    let ran = std::panic::catch_unwind(|| commands::run(cli));
+    let ran = ran.unwrap_or_else(|_| Err(Failure::Internal("it panicked, see above".into())));
+    match ran {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
             text::warn(&format!("error: {failure}"));

@@ -51,8 +51,8 @@ pub struct OutputArgs {
     pub files: Vec<PathBuf>,
     /// Exposure of a PNG in stops
     ///
-    /// auto: the geometric mean of the lit pixels' luminance goes to 0.18, or lower where that would put more than one
-    /// lit pixel in a hundred above 4.
+    /// auto: the geometric mean of the lit pixels' luminance goes to 0.25, or lower where that would put more than one
+    /// lit pixel in twenty above 1.5.
     #[arg(long, value_name = "auto|EV", default_value = "auto", value_parser = Exposure::parse, allow_hyphen_values = true)]
     pub exposure: Exposure,
     /// Tone curve of a PNG: Khronos PBR Neutral, or none

@@ -15,9 +15,9 @@ pub enum Exposure {
 pub const STOPS_MAX: f32 = 60.0;
 
 /// Luminance that the log-average of a picture is brought to.
-const KEY: f64 = 0.18;
-/// Luminance that 99 of 100 lit pixels stay below.
-const BRIGHT: f64 = 4.0;
+const KEY: f64 = 0.25;
+/// Luminance that 95 of 100 lit pixels stay below.
+const BRIGHT: f64 = 1.5;
 
 impl Exposure {
     /// Reads `auto` or a number of stops.
@@ -52,8 +52,8 @@ impl std::fmt::Display for Exposure {
     }
 }
 
-/// Stops that bring the geometric mean of the luminance to 0.18, or less where that would put more than one lit pixel
-/// in a hundred above 4.
+/// Stops that bring the geometric mean of the luminance to 0.25, or less where that would put more than one lit pixel
+/// in twenty above 1.5.
 ///
 /// Only lit pixels count: luminance finite and above a millionth of the brightest. A black picture has exposure 0.
 pub fn automatic(pixels: &[[f32; 3]]) -> f32 {
@@ -68,7 +68,7 @@ pub fn automatic(pixels: &[[f32; 3]]) -> f32 {
         return 0.0;
     }
     let mean_log = lit.iter().map(|l| l.log2()).sum::<f64>() / lit.len() as f64;
-    let index = (lit.len() - 1) * 99 / 100;
+    let index = (lit.len() - 1) * 95 / 100;
     let (_, &mut bright, _) = lit.select_nth_unstable_by(index, f64::total_cmp);
     let stops = (KEY.log2() - mean_log).min(BRIGHT.log2() - bright.log2());
     (stops as f32).clamp(-STOPS_MAX, STOPS_MAX)
@@ -80,9 +80,9 @@ mod tests {
 
     #[test]
     fn grey_goes_to_the_key_whatever_its_unit() {
-        for value in [1e-12f32, 0.18, 5.0, 1e15] {
+        for value in [1e-12f32, 0.25, 5.0, 1e15] {
             let stops = automatic(&[[value; 3]; 10]);
-            assert!((value * stops.exp2() - 0.18).abs() < 1e-4, "{value}");
+            assert!((value * stops.exp2() - 0.25).abs() < 1e-4, "{value}");
         }
     }
 
@@ -90,7 +90,7 @@ mod tests {
     fn black_nan_and_fireflies_do_not_count() {
         assert_eq!(automatic(&[]), 0.0);
         assert_eq!(automatic(&[[0.0; 3], [f32::NAN; 3], [-1.0; 3]]), 0.0);
-        let mut pixels = vec![[0.18; 3]; 1000];
+        let mut pixels = vec![[0.25; 3]; 1000];
         pixels.extend([[0.0; 3]; 5000]);
         pixels.push([f32::INFINITY; 3]);
         assert!(automatic(&pixels).abs() < 1e-3);
@@ -102,7 +102,7 @@ mod tests {
     fn a_large_bright_part_is_kept_in_range() {
         let mut pixels = vec![[1e-3; 3]; 900];
         pixels.extend([[1.0; 3]; 100]);
-        assert!((automatic(&pixels) - 2.0).abs() < 1e-3);
+        assert!((automatic(&pixels) - 1.5f32.log2()).abs() < 1e-3);
     }
 
     #[test]

@@ -15,13 +15,13 @@ use std::io::{Seek, Write};
 /// What the writer returns.
 pub fn write(
     file: impl Write + Seek,
-    picture: &Picture,
+    picture: Picture,
     metadata: &Metadata,
 ) -> Result<(), exr::error::Error> {
     let channels: SmallVec<[_; 4]> = picture
         .channels
-        .iter()
-        .map(|c| e::AnyChannel::new(text(&c.name), e::FlatSamples::F32(c.values.clone())))
+        .into_iter()
+        .map(|c| e::AnyChannel::new(text(&c.name), e::FlatSamples::F32(c.values)))
         .collect();
     let encoding = e::Encoding {
         compression: e::Compression::ZIP16,
@@ -99,7 +99,7 @@ mod tests {
     #[test]
     fn a_written_picture_is_read_back_bit_by_bit() {
         let mut file = std::io::Cursor::new(Vec::new());
-        write(&mut file, &picture(), &metadata()).expect("written to memory");
+        write(&mut file, picture(), &metadata()).expect("written to memory");
         let read = input::exr::parse(file.get_ref()).expect("own files are readable");
         let (mut written, mut read) = (picture().channels, read.channels);
         written.sort_by(|a, b| a.name.cmp(&b.name));
@@ -111,7 +111,7 @@ mod tests {
     fn the_same_picture_has_the_same_bytes() {
         let bytes = || {
             let mut file = std::io::Cursor::new(Vec::new());
-            write(&mut file, &picture(), &metadata()).expect("written to memory");
+            write(&mut file, picture(), &metadata()).expect("written to memory");
             file.into_inner()
         };
         assert_eq!(bytes(), bytes());
@@ -120,7 +120,7 @@ mod tests {
     #[test]
     fn settings_survive_as_json() {
         let mut file = std::io::Cursor::new(Vec::new());
-        write(&mut file, &picture(), &metadata()).expect("written to memory");
+        write(&mut file, picture(), &metadata()).expect("written to memory");
         let meta = exr::meta::MetaData::read_from_buffered(file.get_ref().as_slice(), true);
         let meta = meta.expect("own files are readable");
         let own = &meta.headers[0].own_attributes;
@@ -136,7 +136,7 @@ mod tests {
     #[test]
     fn a_file_cut_anywhere_is_an_error() {
         let mut file = std::io::Cursor::new(Vec::new());
-        write(&mut file, &picture(), &metadata()).expect("written to memory");
+        write(&mut file, picture(), &metadata()).expect("written to memory");
         let bytes = file.into_inner();
         for length in 0..bytes.len() {
             assert!(

@@ -79,7 +79,7 @@ impl Dump {
             let path = self.folder.join(format!("map{index}.exr"));
             let picture = map.picture();
             let file = Pending::create(&path)?;
-            file.write(|file| output::exr::write(file, &picture, metadata))?;
+            file.write(|file| output::exr::write(file, picture, metadata))?;
             written.push((path, "EXR"));
         }
         Ok(written)

@@ -1,6 +1,8 @@
 //! `vsgl render`: from a scene to pictures.
 
-use super::{SCHEMA_VERSION, dump, facts};
+mod report;
+
+use super::{dump, facts};
 use crate::args::{BackendName, OutputArgs, RenderArgs};
 use crate::exit::{Failure, Result};
 use crate::job::Job;
@@ -8,7 +10,8 @@ use crate::output::{self, Format, Metadata, Pending};
 use crate::picture::Picture;
 use crate::progress::Progress;
 use crate::{interrupt, text};
-use serde_json::{Value, json};
+use report::{Report, Written};
+use serde_json::Value;
 use std::time::Instant;
 use vsgl_core::backend::Backend;
 use vsgl_core::data::{Image, SceneData};
@@ -75,6 +78,12 @@ fn work<B: Backend>(
     let times = progress.finish();
     let frame: Frame<B> = frame?;
     let image = backend.download(&frame.image)?;
+    let notes = notes(&image, dump.is_some() && frame.rsm.is_none());
+    if !out.quiet {
+        notes
+            .iter()
+            .for_each(|note| text::warn(&format!("warning: {note}")));
+    }
 
     let start = Instant::now();
     let mut written = Vec::new();
@@ -107,6 +116,7 @@ fn work<B: Backend>(
         clusters,
         seconds,
         written,
+        notes,
     };
     if out.json {
         return text::print_json(&report.json());
@@ -117,22 +127,20 @@ fn work<B: Backend>(
     text::print(&report.text())
 }
 
-/// A file that was written.
-struct Written {
-    path: String,
-    format: &'static str,
-    /// Stops of a PNG.
-    exposure: Option<f32>,
-}
-
-impl Written {
-    fn new(path: String, format: &'static str) -> Self {
-        Self {
-            path,
-            format,
-            exposure: None,
-        }
+/// What the user should know about the result.
+fn notes(image: &Image, nothing_to_dump: bool) -> Vec<String> {
+    let mut notes = Vec::new();
+    let broken = |p: &&[f32; 3]| !p.iter().all(|c| c.is_finite());
+    let count = image.beauty().iter().filter(broken).count();
+    if count > 0 {
+        notes.push(format!(
+            "{count} pixels are not finite: a fault of this program, please report it"
+        ));
     }
+    if nothing_to_dump {
+        notes.push("nothing to dump: no light bounces".into());
+    }
+    notes
 }
 
 fn write(
@@ -151,7 +159,7 @@ fn write(
         Format::Exr => {
             let metadata = metadata(job, settings, &words);
             let picture = Picture::from_image(image);
-            file.write(|file| output::exr::write(file, &picture, &metadata))?;
+            file.write(|file| output::exr::write(file, picture, &metadata))?;
         }
         Format::Png => {
             let pixels = image.beauty();
@@ -199,78 +207,4 @@ fn display_words(out: &OutputArgs) -> Vec<String> {
 fn command(words: &[String]) -> String {
     let start = ["vsgl", "render"].map(String::from);
     text::shell(&[&start[..], words].concat())
-}
-
-/// What was done.
-struct Report<'a> {
-    job: &'a Job,
-    out: &'a OutputArgs,
-    backend: &'static str,
-    device: &'a str,
-    clusters: Option<u32>,
-    seconds: Vec<(String, f64)>,
-    written: Vec<Written>,
-}
-
-impl Report<'_> {
-    /// The command that does the same again, outputs and all.
-    fn command(&self) -> String {
-        let mut words = self.job.words();
-        words.extend(display_words(self.out));
-        for file in &self.out.files {
-            words.extend(["-o".into(), file.to_string_lossy().into_owned()]);
-        }
-        if let Some(dump) = &self.out.dump {
-            words.extend(["--dump".into(), dump.to_string_lossy().into_owned()]);
-        }
-        command(&words)
-    }
-
-    fn text(&self) -> String {
-        let mut out = format!("{}\n\n", self.command());
-        out += &facts::scene_text(self.job);
-        if self.out.verbose {
-            out += &facts::settings_text(self.job);
-        }
-        out += &facts::plan_text(self.job);
-        out += &format!("phases    on {}, {}", self.backend, self.device);
-        if let Some(clusters) = self.clusters {
-            out += &format!(", {clusters} virtual lights");
-        }
-        out += "\n";
-        let total: f64 = self.seconds.iter().map(|(_, s)| s).sum();
-        for (phase, seconds) in &self.seconds {
-            out += &format!("  {phase:<8} {seconds:>9.3} s\n");
-        }
-        out += &format!("  {:<8} {total:>9.3} s\n", "all");
-        let (width, height) = self.job.view.pixels();
-        out += &format!("written   {width}x{height}\n");
-        for file in &self.written {
-            out += &format!("  {}  {}", file.path, file.format);
-            if let Some(stops) = file.exposure {
-                out += &format!(", exposure {stops:+.2} stops");
-            }
-            out += "\n";
-        }
-        out
-    }
-
-    fn json(&self) -> Value {
-        let mut document = facts::json(self.job);
-        let (width, height) = self.job.view.pixels();
-        let phase = |(phase, seconds): &(String, f64)| json!({"phase": phase, "seconds": seconds});
-        let file =
-            |w: &Written| json!({"file": w.path, "format": w.format, "exposure": w.exposure});
-        document["schema_version"] = SCHEMA_VERSION.into();
-        document["command"] = self.command().into();
-        document["backend"] = self.backend.into();
-        document["device"] = self.device.into();
-        document["virtual_lights"] = self.clusters.into();
-        document["width"] = width.into();
-        document["height"] = height.into();
-        document["seed"] = self.job.seed.into();
-        document["phases"] = self.seconds.iter().map(phase).collect();
-        document["outputs"] = self.written.iter().map(file).collect();
-        document
-    }
 }
