@@ -24,6 +24,19 @@ pub(super) struct Walls {
     pub(super) right: u32,
 }
 
+/// The shape of [`Builder::pipe`].
+pub(super) struct Pipe {
+    /// Radii [m].
+    pub(super) inner: f32,
+    pub(super) outer: f32,
+    /// [m]
+    pub(super) height: f32,
+    /// Material inside.
+    pub(super) lining: u32,
+    /// Material of the other sides.
+    pub(super) material: u32,
+}
+
 /// The light of [`Builder::spot`].
 pub(super) struct Spot {
     pub(super) position: Vec3,
@@ -95,42 +108,36 @@ impl Builder {
         self.lathe(centre, &profile, segments, material);
     }
 
-    /// An upright pipe with walls of some thickness, round inside and outside, flat on top and bottom.
-    pub(super) fn pipe(
-        &mut self,
-        foot: Vec3,
-        inner: f32,
-        outer: f32,
-        height: f32,
-        segments: u32,
-        material: u32,
-    ) {
-        let (inner, outer, height) = (f64::from(inner), f64::from(outer), f64::from(height));
+    /// An upright pipe, flat on top and bottom.
+    pub(super) fn pipe(&mut self, foot: Vec3, segments: u32, pipe: &Pipe) {
+        let [inner, outer, height] = [pipe.inner, pipe.outer, pipe.height].map(f64::from);
         let at = |radius, height, normal| Profile {
             radius,
             height,
             normal,
         };
-        for side in [
-            [at(outer, 0.0, [1.0, 0.0]), at(outer, height, [1.0, 0.0])],
-            [at(outer, height, [0.0, 1.0]), at(inner, height, [0.0, 1.0])],
-            [at(inner, height, [-1.0, 0.0]), at(inner, 0.0, [-1.0, 0.0])],
-            [at(inner, 0.0, [0.0, -1.0]), at(outer, 0.0, [0.0, -1.0])],
-        ] {
-            self.lathe(foot, &side, segments, material);
+        let outside = [at(outer, 0.0, [1.0, 0.0]), at(outer, height, [1.0, 0.0])];
+        let top = [at(outer, height, [0.0, 1.0]), at(inner, height, [0.0, 1.0])];
+        let inside = [at(inner, height, [-1.0, 0.0]), at(inner, 0.0, [-1.0, 0.0])];
+        let bottom = [at(inner, 0.0, [0.0, -1.0]), at(outer, 0.0, [0.0, -1.0])];
+        if inner > 0.0 {
+            self.lathe(foot, &inside, segments, pipe.lining);
+        }
+        for side in [outside, top, bottom] {
+            self.lathe(foot, &side, segments, pipe.material);
         }
     }
 
     /// An upright cylinder with both ends closed.
-    pub(super) fn cylinder(
-        &mut self,
-        foot: Vec3,
-        radius: f32,
-        height: f32,
-        segments: u32,
-        material: u32,
-    ) {
-        self.pipe(foot, 0.0, radius, height, segments, material);
+    pub(super) fn cylinder(&mut self, foot: Vec3, radius: f32, height: f32, material: u32) {
+        let solid = Pipe {
+            inner: 0.0,
+            outer: radius,
+            height,
+            lining: material,
+            material,
+        };
+        self.pipe(foot, 48, &solid);
     }
 
     /// A profile turned about the vertical through `foot`. Going along it, the outside is to the right.

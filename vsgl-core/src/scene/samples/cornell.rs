@@ -11,7 +11,7 @@ pub(super) fn scene() -> Builder {
     let white = b.material(Material::lambert("white", [0.73, 0.73, 0.73]));
     let red = b.material(Material::lambert("red", [0.63, 0.06, 0.05]));
     let green = b.material(Material::lambert("green", [0.13, 0.45, 0.09]));
-    let floor = b.material(Material::dielectric("varnish", [0.42, 0.40, 0.37], 0.3));
+    let floor = b.material(Material::dielectric("varnish", [0.52, 0.50, 0.46], 0.3));
     let copper = b.material(Material::metal("copper", [0.95, 0.64, 0.54], 0.25));
     b.room(
         Vec3::new(-1.6, 0.0, -1.5),
@@ -38,11 +38,11 @@ pub(super) fn scene() -> Builder {
         white,
     );
     b.spot(Spot {
-        position: Vec3::new(0.75, 1.95, 1.1),
-        target: Vec3::new(-0.6, 0.45, -0.5),
+        position: Vec3::new(1.1, 1.9, 0.9),
+        target: Vec3::new(-0.75, 0.75, -0.8),
         intensity: [40.0, 38.0, 34.0],
-        inner: 24.0,
-        outer: 30.0,
+        inner: 16.0,
+        outer: 26.0,
     });
     b.camera(Vec3::new(0.0, 1.0, 2.5), Vec3::new(0.0, 0.9, 0.0), 44.0);
     b

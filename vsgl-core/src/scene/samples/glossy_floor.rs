@@ -9,7 +9,7 @@ use glam::Vec3;
 pub(super) fn scene() -> Builder {
     let mut b = Builder::default();
     let wall = b.material(Material::lambert("wall", [0.7, 0.7, 0.7]));
-    let floor = b.material(Material::metal("brushed metal", [0.82, 0.80, 0.76], 0.25));
+    let floor = b.material(Material::metal("brushed metal", [0.82, 0.80, 0.76], 0.3));
     let boards = [
         ("red", [0.70, 0.08, 0.06]),
         ("yellow", [0.75, 0.55, 0.08]),
@@ -41,8 +41,8 @@ pub(super) fn scene() -> Builder {
         position: Vec3::new(0.0, 2.1, 1.6),
         target: Vec3::new(0.0, 0.35, -0.6),
         intensity: [40.0, 39.0, 37.0],
-        inner: 26.0,
-        outer: 34.0,
+        inner: 30.0,
+        outer: 55.0,
     });
     b.camera(Vec3::new(0.3, 1.05, 2.7), Vec3::new(0.0, 0.55, -0.5), 42.0);
     b

@@ -79,12 +79,12 @@ const SAMPLES: &[Sample] = &[
     },
     Sample {
         name: "columns",
-        about: "a hall of columns, lit from behind a corner: mostly indirect light and its shadows",
+        about: "a hall of columns under a slanting spot: shadows that only indirect light fills",
         make: Make::Fixed(columns::scene),
     },
     Sample {
         name: "caustic-ring",
-        about: "a metal ring that gathers the light of a spot on the floor",
+        about: "a ring, steel inside, that gathers the light of a spot on the floor in it",
         make: Make::Fixed(caustic_ring::scene),
     },
     Sample {

@@ -5,7 +5,7 @@ use crate::scene::Material;
 use glam::Vec3;
 
 /// Perceptual roughness of the spheres, from left to right.
-const ROUGHNESS: [f32; 6] = [0.1, 0.2, 0.3, 0.45, 0.6, 0.8];
+const ROUGHNESS: [f32; 6] = [0.2, 0.3, 0.4, 0.5, 0.65, 0.8];
 
 /// Six golden spheres before coloured walls: what they mirror, and the light that they throw around them.
 pub(super) fn scene() -> Builder {
@@ -32,8 +32,8 @@ pub(super) fn scene() -> Builder {
             roughness,
         );
         let material = b.material(gold);
-        let x = 0.72 * (i as f32 - 2.5);
-        b.sphere(Vec3::new(x, 0.32, -0.1), 0.315, 64, material);
+        let x = 0.68 * (i as f32 - 2.5);
+        b.sphere(Vec3::new(x, 0.31, -0.1), 0.305, 64, material);
     }
     b.spot(Spot {
         position: Vec3::new(0.0, 2.35, 2.4),
@@ -42,6 +42,6 @@ pub(super) fn scene() -> Builder {
         inner: 34.0,
         outer: 42.0,
     });
-    b.camera(Vec3::new(0.0, 1.25, 3.2), Vec3::new(0.0, 0.5, 0.0), 40.0);
+    b.camera(Vec3::new(0.0, 1.1, 3.2), Vec3::new(0.0, 0.42, 0.0), 39.0);
     b
 }
