@@ -1,5 +1,6 @@
 //! `vsgl render` with good input.
 
+use crate::errors::TRIANGLE;
 use crate::run::{Folder, SMALL};
 use serde_json::Value;
 use vsgl_cli::input;
@@ -249,7 +250,7 @@ fn a_dump_shows_maps_density_and_clusters() {
 #[test]
 fn a_file_without_camera_is_framed() {
     let folder = Folder::new();
-    folder.write("a.gltf", crate::errors::TRIANGLE);
+    folder.write("a.gltf", TRIANGLE);
     let flags = "--spot 0.3,0.3,2:0.3,0.3,0:5:30 --size 16x9 --rsm 16 --lights 4";
     let ran = folder.run(&format!("render a.gltf -o a.exr {flags}"));
     assert!(ran.err.contains("no camera"), "{}", ran.err);
@@ -259,6 +260,30 @@ fn a_file_without_camera_is_framed() {
         pixels.iter().any(|p| p[0] > 0.0),
         "the triangle is in the picture"
     );
+}
+
+#[test]
+fn far_from_the_origin_coordinates_on_the_command_line_keep_their_digits() {
+    let folder = Folder::new();
+    let moved = TRIANGLE.replace(
+        r#"{"mesh": 0}"#,
+        r#"{"mesh": 0, "translation": [100000, 0, 0]}"#,
+    );
+    folder.write("near.gltf", TRIANGLE);
+    folder.write("far.gltf", moved);
+    let flags = "--size 16x16 --rsm 16 --lights 4 --fov 30";
+    let near = "--look-at 0.31,0.32,3:0.3,0.3,0 --spot 0.333,0.3,1:0.3,0.3,0:5:30";
+    let far =
+        "--look-at 100000.31,0.32,3:100000.3,0.3,0 --spot 100000.333,0.3,1:100000.3,0.3,0:5:30";
+    folder
+        .run(&format!("render near.gltf -o near.exr {flags} {near}"))
+        .ok();
+    folder
+        .run(&format!("render far.gltf -o far.exr {flags} {far}"))
+        .ok();
+    folder
+        .run("compare far.exr near.exr --fail-above rmspe=0.01")
+        .ok();
 }
 
 #[test]

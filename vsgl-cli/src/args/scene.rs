@@ -13,7 +13,7 @@ pub struct SceneArgs {
     /// Camera of the scene, by name or by index from 0 [default: the first]
     #[arg(long, value_name = "NAME|INDEX", conflicts_with = "look_at")]
     pub camera: Option<String>,
-    /// Camera at ex,ey,ez that looks at tx,ty,tz, in world space [m]
+    /// Camera at ex,ey,ez that looks at tx,ty,tz, in world space, in metres
     #[arg(long, value_name = "ex,ey,ez:tx,ty,tz", value_parser = LookAt::parse, allow_hyphen_values = true)]
     pub look_at: Option<LookAt>,
     /// Vertical field of view of --look-at [default: 45]

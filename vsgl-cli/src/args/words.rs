@@ -41,7 +41,7 @@ impl fmt::Display for Size {
     }
 }
 
-/// Eye and target of a camera in world space [m].
+/// Eye and target of a camera in world space, in metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LookAt {
     /// Where the camera is.
@@ -77,19 +77,19 @@ impl fmt::Display for LookAt {
 /// A spot light in world space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spot {
-    /// Where it is [m].
+    /// Where it is, in metres.
     pub position: [f64; 3],
-    /// What it points at [m].
+    /// What it points at, in metres.
     pub target: [f64; 3],
     /// Radiant intensity on the axis [W/sr].
     pub intensity: [f64; 3],
-    /// Half angle beyond which it is dark [degrees].
+    /// Half angle beyond which it is dark, in degrees.
     pub outer: f64,
-    /// Half angle up to which the intensity is full [degrees]; none: a hard edge.
+    /// Half angle up to which the intensity is full, in degrees; none: a hard edge.
     pub inner: Option<f64>,
 }
 
-/// Largest outer half angle of a spot [degrees].
+/// Largest outer half angle of a spot in degrees.
 const OUTER_MAX: f64 = 80.0;
 
 impl Spot {
@@ -134,7 +134,7 @@ impl fmt::Display for Spot {
     }
 }
 
-/// Reads a vertical field of view [degrees].
+/// Reads a vertical field of view in degrees.
 ///
 /// # Errors
 /// What would be accepted.

@@ -5,7 +5,7 @@ use crate::picture::{Channel, Picture};
 use exr::prelude as e;
 use exr::prelude::{ReadChannels, ReadLayers};
 
-/// Most numbers of a file that is read: 1 GiB of them.
+/// Most numbers of a file that is read: a gibibyte of them.
 const VALUES_MAX: u64 = 1 << 28;
 
 /// Reads all parts into one picture, in the display window of the first. Channels of a named part get the name as
@@ -63,7 +63,9 @@ fn check_headers(bytes: &[u8]) -> Result<(), String> {
         }
     }
     if values > 2 * VALUES_MAX {
-        return Err("more than a gibibyte of pixels".into());
+        return Err(format!(
+            "more than {VALUES_MAX} numbers; cut the layers out that matter"
+        ));
     }
     Ok(())
 }

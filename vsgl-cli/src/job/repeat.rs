@@ -5,6 +5,7 @@ use crate::args::{SceneArgs, SettingsArgs};
 use crate::commands::SCHEMA_VERSION;
 use serde_json::{Map, Value, json};
 use vsgl_core::glam::DVec3;
+use vsgl_core::scene::Camera;
 use vsgl_core::settings::Settings;
 
 /// Arguments that choose a scene, its lights and a camera.
@@ -78,23 +79,45 @@ impl Job {
 
     /// World to camera space for row vectors, row by row: x right, y up, z towards the viewer.
     pub fn world_to_camera(&self) -> [f32; 16] {
-        let camera = &self.view.camera;
-        let axes = [camera.right, camera.up, -camera.forward].map(|a| a.as_dvec3());
-        let eye: DVec3 = camera.eye.as_dvec3() + self.scene.origin;
-        let mut matrix = [0.0; 16];
-        for (column, axis) in axes.into_iter().enumerate() {
-            matrix[column] = axis.x as f32;
-            matrix[4 + column] = axis.y as f32;
-            matrix[8 + column] = axis.z as f32;
-            matrix[12 + column] = -axis.dot(eye) as f32;
-        }
-        matrix[15] = 1.0;
-        matrix
+        world_to_camera(&self.view.camera, self.scene.origin)
     }
+}
+
+fn world_to_camera(camera: &Camera, origin: DVec3) -> [f32; 16] {
+    let axes = [camera.right, camera.up, -camera.forward].map(|a| a.as_dvec3());
+    let eye = camera.eye.as_dvec3() + origin;
+    let mut matrix = [0.0; 16];
+    for (column, axis) in axes.into_iter().enumerate() {
+        matrix[column] = axis.x as f32;
+        matrix[4 + column] = axis.y as f32;
+        matrix[8 + column] = axis.z as f32;
+        matrix[12 + column] = -axis.dot(eye) as f32;
+    }
+    matrix[15] = 1.0;
+    matrix
 }
 
 /// All settings with their values.
 pub fn settings_json(settings: &Settings) -> Value {
     let entries = settings.entries().into_iter();
     Value::Object(entries.map(|(k, v)| (k.to_owned(), v.into())).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use vsgl_core::glam::Vec3;
+
+    #[test]
+    fn the_matrix_moves_the_eye_to_zero_and_the_view_to_minus_z() {
+        let camera = Camera::look_at(Vec3::new(1.0, 2.0, 3.0), Vec3::new(4.0, 2.0, 3.0), 1.0);
+        let matrix = world_to_camera(&camera, DVec3::new(10.0, 0.0, 0.0));
+        let times = |p: [f32; 3]| {
+            [0, 1, 2].map(|c| {
+                p[0] * matrix[c] + p[1] * matrix[4 + c] + p[2] * matrix[8 + c] + matrix[12 + c]
+            })
+        };
+        assert_eq!(times([11.0, 2.0, 3.0]), [0.0; 3]);
+        assert_eq!(times([16.0, 3.0, 3.0]), [0.0, 1.0, -5.0]);
+    }
 }

@@ -60,7 +60,8 @@ impl Report<'_> {
         out += &facts::plan_text(self.job);
         out += &format!("phases    on {}, {}", self.backend, self.device);
         if let Some(clusters) = self.clusters {
-            out += &format!(", {clusters} virtual lights");
+            let clusters = facts::count(clusters as usize, "virtual light");
+            out += &format!(", {clusters}");
         }
         out += "\n";
         let total: f64 = self.seconds.iter().map(|(_, s)| s).sum();
