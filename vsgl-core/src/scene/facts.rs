@@ -87,3 +87,135 @@ fn may_see(camera: &Camera, corners: [Vec3; 3]) -> bool {
         .iter()
         .any(|&c| (c - camera.eye).dot(camera.forward) > 0.0)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Material, Mesh};
+    use proptest::prelude::*;
+
+    /// One triangle at `corners`, of this material.
+    fn scene(corners: [Vec3; 3], material: Material) -> Scene {
+        Scene {
+            mesh: Mesh {
+                positions: corners.to_vec(),
+                normals: vec![Vec3::Z; 3],
+                triangles: vec![[0, 1, 2]],
+                material: vec![0],
+                ..Mesh::default()
+            },
+            materials: vec![material],
+            ..Scene::default()
+        }
+    }
+
+    /// A spot at the origin that shines along -z, 30 degrees wide.
+    fn spot() -> Light {
+        Light::Spot(SpotLight {
+            position: Vec3::ZERO,
+            axis: Vec3::NEG_Z,
+            intensity: [1.0; 3],
+            inner: 0.2,
+            outer: 30f32.to_radians(),
+        })
+    }
+
+    /// Looks along -z from the origin.
+    fn camera() -> Camera {
+        Camera::look_at(Vec3::ZERO, Vec3::NEG_Z, 1.0)
+    }
+
+    fn around(centre: Vec3) -> [Vec3; 3] {
+        [centre, centre + Vec3::X * 0.1, centre + Vec3::Y * 0.1]
+    }
+
+    fn facts(centre: Vec3, material: Material) -> SceneFacts {
+        SceneFacts::new(&scene(around(centre), material), &[spot()], &camera())
+    }
+
+    #[test]
+    fn a_metal_in_the_cone_sends_and_receives() {
+        let facts = facts(Vec3::NEG_Z * 5.0, Material::metal("", [1.0; 3], 0.3));
+        assert!(facts.glossy_senders && facts.reflecting_senders && facts.glossy_receivers);
+        assert_eq!(
+            (facts.triangles, facts.lights, facts.textures),
+            (1, 1, false)
+        );
+    }
+
+    #[test]
+    fn outside_the_cone_and_behind_the_camera_nothing_is_sent_or_received() {
+        let beside = facts(
+            Vec3::new(4.0, 0.0, -5.0),
+            Material::metal("", [1.0; 3], 0.3),
+        );
+        assert!(!beside.glossy_senders && !beside.reflecting_senders && beside.glossy_receivers);
+        let behind = facts(Vec3::Z * 5.0, Material::metal("", [1.0; 3], 0.3));
+        assert!(!behind.glossy_senders && !behind.reflecting_senders && !behind.glossy_receivers);
+    }
+
+    #[test]
+    fn a_triangle_that_holds_the_light_or_the_whole_cone_is_reached() {
+        let large = [
+            Vec3::new(-50.0, -50.0, -1.0),
+            Vec3::new(50.0, -50.0, -1.0),
+            Vec3::new(0.0, 90.0, -1.0),
+        ];
+        assert!(may_reach(&spot(), large));
+        assert!(may_reach(&spot(), large.map(|c| c + Vec3::Z)));
+    }
+
+    #[test]
+    fn matte_surfaces_reflect_without_gloss_and_black_ones_not_at_all() {
+        let ahead = Vec3::NEG_Z * 5.0;
+        let matte = facts(ahead, Material::lambert("", [0.5; 3]));
+        assert!(matte.reflecting_senders && !matte.glossy_senders && !matte.glossy_receivers);
+        let black = facts(ahead, Material::lambert("", [0.0; 3]));
+        assert!(!black.reflecting_senders && !black.glossy_senders);
+        // Black, but with a varnish.
+        let varnished = facts(ahead, Material::dielectric("", [0.0; 3], 0.3));
+        assert!(varnished.reflecting_senders && varnished.glossy_senders);
+    }
+
+    #[test]
+    fn without_lights_nothing_is_sent() {
+        let metal = Material::metal("", [1.0; 3], 0.3);
+        let facts = SceneFacts::new(&scene(around(Vec3::NEG_Z), metal), &[], &camera());
+        assert!(!facts.reflecting_senders && !facts.glossy_senders && facts.glossy_receivers);
+    }
+
+    #[test]
+    fn one_surface_of_many_is_enough() {
+        let mut both = scene(around(Vec3::NEG_Z * 5.0), Material::lambert("", [0.5; 3]));
+        both.mesh.triangles.push([0, 2, 1]);
+        both.mesh.material.push(1);
+        both.materials.push(Material::metal("", [1.0; 3], 0.3));
+        let facts = SceneFacts::new(&both, &[spot()], &camera());
+        assert!(facts.glossy_senders && facts.glossy_receivers);
+    }
+
+    fn coordinate() -> impl Strategy<Value = Vec3> {
+        (-3.0f32..3.0, -3.0f32..3.0, -3.0f32..3.0).prop_map(Vec3::from)
+    }
+
+    proptest! {
+        /// A point of the triangle in the cone: the triangle must not be ruled out.
+        #[test]
+        fn no_lit_triangle_is_missed(
+            corners in [coordinate(), coordinate(), coordinate()],
+            position in coordinate(),
+            target in coordinate(),
+            outer in 0.01f32..SpotLight::OUTER_MAX,
+            (u, v) in (0.0f32..1.0, 0.0f32..1.0),
+        ) {
+            let axis = (target - position).normalize_or(Vec3::X);
+            let (u, v) = if u + v > 1.0 { (1.0 - u, 1.0 - v) } else { (u, v) };
+            let point = corners[0] + (corners[1] - corners[0]) * u + (corners[2] - corners[0]) * v;
+            let direction = (point - position).normalize_or(axis);
+            let light = Light::Spot(SpotLight { position, axis, intensity: [1.0; 3], inner: 0.0, outer });
+            if direction.dot(axis) > outer.cos() {
+                prop_assert!(may_reach(&light, corners));
+            }
+        }
+    }
+}

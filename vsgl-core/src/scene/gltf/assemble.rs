@@ -5,7 +5,7 @@ use super::document::{Document, lookup};
 use super::fault::{Fault, Result};
 use super::limits::Limits;
 use super::materials::Materials;
-use super::nodes::Placed;
+use super::nodes::{LARGEST, Placed};
 use super::primitive::{Primitive, Reader, check_triangles, check_vertices, cross};
 use super::warnings::Warnings;
 use crate::scene::{Material, Mesh};
@@ -22,8 +22,8 @@ pub(super) struct Geometry {
     pub(super) images: Vec<usize>,
 }
 
-/// Largest distance from the origin that is accepted [m]: with more, squares of squares leave the range of f32.
-const LARGEST: f64 = 1e9;
+/// Smallest half extent that is accepted [m], for the same reason as [`LARGEST`].
+const SMALLEST: f64 = 1e-9;
 
 /// Reads every mesh that a node shows, once, and places its instances.
 pub(super) fn geometry(
@@ -118,15 +118,23 @@ fn centre(instances: &[Instance<'_>]) -> Result<DVec3> {
     if instances.is_empty() {
         return Ok(DVec3::ZERO);
     }
-    let centre = low + (high - low) * 0.5;
-    if (high - centre).max_element() > LARGEST {
+    let half = (high - low) * 0.5;
+    let size = half.max_element();
+    if size > LARGEST {
         return Err(Fault::new(
             "scene",
             format!("is more than {:e} m across", 2.0 * LARGEST),
             "scale it down, or leave out what lies far off",
         ));
     }
-    Ok(centre)
+    if size > 0.0 && size < SMALLEST {
+        return Err(Fault::new(
+            "scene",
+            format!("is less than {:e} m across", 2.0 * SMALLEST),
+            "scale it up",
+        ));
+    }
+    Ok(low + half)
 }
 
 /// One mesh of all instances, relative to `origin`.

@@ -32,7 +32,7 @@ pub(super) fn collect(
             }
         };
         let Some(camera) = camera(perspective, index, place, origin)? else {
-            warnings.add("cameras scaled to nothing are left out");
+            warnings.add("cameras too far off, or scaled to nothing, are left out");
             continue;
         };
         let name = source.name.as_ref().or(place.node.name.as_ref());
@@ -66,11 +66,11 @@ fn camera(
     let right = forward
         .cross(place.world.transform_vector3(DVec3::Y))
         .normalize_or_zero();
-    if right == DVec3::ZERO {
+    let Some(eye) = place.position(origin).filter(|_| right != DVec3::ZERO) else {
         return Ok(None);
-    }
+    };
     Ok(Some(Camera {
-        eye: (place.world.w_axis.truncate() - origin).as_vec3(),
+        eye,
         forward: forward.as_vec3().normalize(),
         right: right.as_vec3().normalize(),
         up: right.cross(forward).as_vec3().normalize(),

@@ -76,8 +76,9 @@ fn read(
         warnings.add("lights without intensity are left out");
         return Ok(None);
     }
-    let Some(axis) = place.world.transform_vector3(DVec3::NEG_Z).try_normalize() else {
-        warnings.add("lights scaled to nothing are left out");
+    let axis = place.world.transform_vector3(DVec3::NEG_Z).try_normalize();
+    let (Some(axis), Some(position)) = (axis, place.position(origin)) else {
+        warnings.add("lights too far off, or scaled to nothing, are left out");
         return Ok(None);
     };
     if light.range.is_some() {
@@ -85,7 +86,7 @@ fn read(
     }
     let (inner, outer) = cone(light.spot.as_ref(), &here, warnings)?;
     Ok(Some(Light::Spot(SpotLight {
-        position: (place.world.w_axis.truncate() - origin).as_vec3(),
+        position,
         axis: axis.as_vec3().normalize(),
         intensity,
         inner,

@@ -3,14 +3,25 @@
 use super::document::{Document, lookup};
 use super::fault::{Fault, Result};
 use super::warnings::Warnings;
-use glam::{DMat4, DQuat, DVec3, DVec4};
+use glam::{DMat4, DQuat, DVec3, DVec4, Vec3};
 use gltf::json::{Node, Value};
+
+/// Largest distance from the scene's origin that is accepted [m]: with more, squares of squares leave the range of f32.
+pub(super) const LARGEST: f64 = 1e9;
 
 /// A node with its transform to the world.
 pub(super) struct Placed<'a> {
     pub(super) index: usize,
     pub(super) node: &'a Node,
     pub(super) world: DMat4,
+}
+
+impl Placed<'_> {
+    /// Where the node is, relative to `origin`; none if it is too far off.
+    pub(super) fn position(&self, origin: DVec3) -> Option<Vec3> {
+        let position = self.world.w_axis.truncate() - origin;
+        (position.abs().max_element() <= LARGEST).then(|| position.as_vec3())
+    }
 }
 
 /// All nodes of the scene that hold anything, in the order of the file.

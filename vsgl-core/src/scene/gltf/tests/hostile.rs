@@ -166,6 +166,8 @@ fn transforms_that_lead_nowhere() {
     for (place, node) in [
         ("nodes[0].rotation", r#"{"mesh":0,"rotation":[0,0,0,0]}"#),
         ("scene", r#"{"mesh":0,"scale":[1e20,1e20,1e20]}"#),
+        ("scene", r#"{"mesh":0,"scale":[1e308,1e308,1]}"#),
+        ("scene", r#"{"mesh":0,"scale":[1e-12,1e-12,1e-12]}"#),
     ] {
         refused_at(place, File::triangle().set("nodes", &format!("[{node}]")));
     }
@@ -175,6 +177,29 @@ fn transforms_that_lead_nowhere() {
     let nodes = format!("[{},{{\"mesh\":0}}]", deep.join(","));
     let (place, _) = refused(File::triangle().set("nodes", &nodes).load());
     assert!(place.starts_with("nodes["), "{place}");
+}
+
+#[test]
+fn cameras_and_lights_out_of_reach_are_left_out() {
+    let scene = File::triangle()
+        .set("scenes", r#"[{"nodes":[0,1,2]}]"#)
+        .set(
+            "nodes",
+            r#"[{"mesh":0},{"camera":0,"translation":[1e300,0,0]},
+            {"translation":[0,-1e12,0],"extensions":{"KHR_lights_punctual":{"light":0}}}]"#,
+        )
+        .set(
+            "cameras",
+            r#"[{"type":"perspective","perspective":{"yfov":1,"znear":1}}]"#,
+        )
+        .set(
+            "extensions",
+            r#"{"KHR_lights_punctual":{"lights":[{"type":"spot","spot":{}}]}}"#,
+        )
+        .load()
+        .unwrap();
+    assert!(scene.cameras.is_empty() && scene.lights.is_empty());
+    assert_eq!(scene.warnings.len(), 2);
 }
 
 #[test]
