@@ -145,6 +145,7 @@ fn layers_are_chosen_by_prefix_and_bare_colours_stand_for_any() {
         "{message}"
     );
     folder.run("compare a.exr b.exr").failed(3);
+    folder.run("compare b.exr b.exr --layer indirect").failed(3);
 }
 
 #[test]

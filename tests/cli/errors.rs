@@ -133,6 +133,23 @@ fn input_that_cannot_be_read_is_code_3() {
     );
 }
 
+#[cfg(unix)]
+#[test]
+fn input_without_an_end_is_refused() {
+    let folder = Folder::new();
+    for arguments in [
+        "compare /dev/zero /dev/zero",
+        "render -o b.png --settings /dev/zero",
+        "info /dev/zero",
+    ] {
+        let message = folder.run(arguments).failed(3);
+        assert!(
+            message.contains("/dev/zero") && message.len() < 1000,
+            "{arguments}"
+        );
+    }
+}
+
 #[test]
 fn output_that_cannot_be_written_is_code_5_before_any_work() {
     let folder = Folder::new();

@@ -31,7 +31,9 @@ pub(crate) fn asked() -> bool {
 /// [`Failure::Interrupted`] if so.
 pub(crate) fn check() -> Result<()> {
     if asked() {
-        return Err(Failure::Interrupted("nothing was written".into()));
+        return Err(Failure::Interrupted(
+            "files that were not complete are not there".into(),
+        ));
     }
     Ok(())
 }

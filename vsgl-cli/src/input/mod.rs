@@ -5,6 +5,7 @@ pub mod png;
 
 use crate::exit::{Failure, Result};
 use crate::picture::Picture;
+use std::io::Read as _;
 use std::path::Path;
 
 /// Most pixels of a picture that is read.
@@ -21,18 +22,22 @@ pub struct Read {
     pub notes: Vec<String>,
 }
 
+/// Longest file that is read, in bytes.
+const BYTES_MAX: u64 = 1 << 31;
+const EXR_MAGIC: &[u8] = &[0x76, 0x2f, 0x31, 0x01];
+const PNG_MAGIC: &[u8] = b"\x89PNG\r\n\x1a\n";
+
 /// Reads an EXR or PNG file; its first bytes tell which.
 ///
 /// # Errors
 /// [`Failure::Input`] if it cannot be read, is neither, or is broken.
 pub fn read(path: &Path) -> Result<Read> {
-    let bytes = std::fs::read(path)
-        .map_err(|e| Failure::input(path, e, "give an EXR or PNG file that you may read"))?;
     let broken = |problem: String| {
         let remedy = "give a complete EXR or PNG file, or write it anew";
         Failure::input(path, problem, remedy)
     };
-    if bytes.starts_with(&[0x76, 0x2f, 0x31, 0x01]) {
+    let bytes = bytes(path).map_err(|e| broken(e.to_string()))?;
+    if bytes.starts_with(EXR_MAGIC) {
         let picture = exr::parse(&bytes).map_err(broken)?;
         return Ok(Read {
             picture,
@@ -40,7 +45,7 @@ pub fn read(path: &Path) -> Result<Read> {
             notes: Vec::new(),
         });
     }
-    if bytes.starts_with(b"\x89PNG\r\n\x1a\n") {
+    if bytes.starts_with(PNG_MAGIC) {
         let (picture, notes) = png::parse(&bytes).map_err(broken)?;
         return Ok(Read {
             picture,
@@ -49,6 +54,23 @@ pub fn read(path: &Path) -> Result<Read> {
         });
     }
     Err(broken("neither EXR nor PNG".into()))
+}
+
+/// All bytes of a picture; only the first of anything else, which may have no end.
+fn bytes(path: &Path) -> std::io::Result<Vec<u8>> {
+    let mut file = std::fs::File::open(path)?;
+    let mut bytes = Vec::new();
+    file.by_ref()
+        .take(PNG_MAGIC.len() as u64)
+        .read_to_end(&mut bytes)?;
+    if bytes.starts_with(EXR_MAGIC) || bytes.starts_with(PNG_MAGIC) {
+        file.take(BYTES_MAX).read_to_end(&mut bytes)?;
+    }
+    if bytes.len() as u64 > BYTES_MAX {
+        let problem = format!("longer than {BYTES_MAX} bytes");
+        return Err(std::io::Error::other(problem));
+    }
+    Ok(bytes)
 }
 
 /// Refuses what would not fit into memory.

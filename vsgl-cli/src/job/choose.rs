@@ -50,7 +50,7 @@ fn read_settings(path: &Path, settings: &mut Settings) -> Result<()> {
             Failure::Input(format!("{}: line {}: {problem}", path.display(), index + 1))
         };
         let pair = line.split_once('=');
-        let (key, value) = pair.ok_or_else(|| at(format!("`{line}` has no `=`; {remedy}")))?;
+        let (key, value) = pair.ok_or_else(|| at(format!("there is no `=`; {remedy}")))?;
         let set = settings.set(key.trim(), value.trim());
         set.map_err(|e| at(e.to_string()))?;
     }

@@ -27,6 +27,18 @@ pub(super) fn run(args: &CompareArgs) -> Result<()> {
         .transpose()?;
     let test = Side::read(&args.test, &args.layer)?;
     let reference = Side::read(&args.reference, &args.layer)?;
+    if test.stands_in && reference.stands_in {
+        let problem = format!(
+            "no layer `{}`, and {} has none either",
+            args.layer,
+            args.reference.display()
+        );
+        return Err(Failure::input(
+            &args.test,
+            problem,
+            "leave --layer away to compare R,G,B",
+        ));
+    }
     let scales = scales(&test, &reference, args)?;
     let verdicts = verdicts(&scales, &args.fail_above, args.side.is_some());
     if let Some(map) = map {

@@ -11,6 +11,8 @@ pub(super) struct Side<'a> {
     pub(super) path: &'a Path,
     pub(super) plane: Plane,
     format: &'static str,
+    /// The layer asked for is not there, and R,G,B stand for it.
+    pub(super) stands_in: bool,
     layer: String,
     notes: Vec<String>,
 }
@@ -21,13 +23,15 @@ impl<'a> Side<'a> {
         let read = input::read(path)?;
         let mut notes = read.notes;
         let picture = &read.picture;
-        let (pixels, layer) = match (picture.rgb(layer), picture.layers().as_slice()) {
+        let bare = !picture.channels.iter().any(|c| c.name.contains('.'));
+        let (pixels, found) = match (picture.rgb(layer), picture.rgb("")) {
             (Some(pixels), _) => (pixels, layer),
-            (None, [only]) if only.is_empty() => {
-                notes.push(format!("has R,G,B alone; they are taken for `{layer}`"));
-                (picture.rgb("").unwrap_or_default(), "")
+            (None, Some(pixels)) if bare => {
+                notes.push(format!("has no layers; R,G,B are taken for `{layer}`"));
+                (pixels, "")
             }
-            (None, layers) => {
+            _ => {
+                let layers = picture.layers();
                 let names: Vec<_> = layers.iter().map(|l| layer_name(l)).collect();
                 let problem = format!("no layer `{}`", layer_name(layer));
                 let remedy = format!("it has {}: choose with --layer", names.join(", "));
@@ -38,7 +42,8 @@ impl<'a> Side<'a> {
             path,
             plane: Plane::luminance(picture.width, picture.height, &pixels)?,
             format: read.format,
-            layer: layer_name(layer).to_owned(),
+            stands_in: found != layer,
+            layer: layer_name(found).to_owned(),
             notes,
         })
     }
