@@ -13,6 +13,9 @@ pub const EXP_ARGUMENT_MAX: f32 = 88.0;
 /// Below this argument [`exp`] is zero: its value would leave the normal numbers, which some devices flush.
 pub const EXP_ARGUMENT_MIN: f32 = -87.0;
 
+/// Below this argument `e^x − 1` is −1 to rounding. Smaller ones would be computed with subnormal numbers, which are slow.
+const EXPM1_ARGUMENT_MIN: f32 = -30.0;
+
 /// `1/√π`.
 pub const INV_SQRT_PI: f32 = 0.564_189_6;
 
@@ -68,7 +71,7 @@ pub fn exp(x: f32) -> f32 {
 #[inline(always)]
 #[must_use]
 pub fn expm1(x: f32) -> f32 {
-    let r = reduce(x);
+    let r = reduce(x.max(EXPM1_ARGUMENT_MIN));
     let near = r.slope * r.rest;
     let far = near * r.scale + (r.scale - 1.0);
     if r.whole == 0.0 { near } else { far }
@@ -81,9 +84,11 @@ pub fn expm1(x: f32) -> f32 {
 #[inline(always)]
 #[must_use]
 pub fn expm1_over_x(x: f32) -> f32 {
-    let r = reduce(x);
-    let far = (r.slope * r.rest * r.scale + (r.scale - 1.0)) / x;
-    if r.whole == 0.0 { r.slope } else { far }
+    let r = reduce(x.max(EXPM1_ARGUMENT_MIN));
+    let near = r.whole == 0.0;
+    // The division is always carried out: one under a condition would keep loops from becoming vectors.
+    let far = (r.slope * r.rest * r.scale + (r.scale - 1.0)) * (1.0 / (if near { 1.0 } else { x }));
+    if near { r.slope } else { far }
 }
 
 /// Natural logarithm, relative error at most 1.2e-7 for normal positive `x`.

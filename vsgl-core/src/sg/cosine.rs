@@ -101,15 +101,14 @@ fn axis_and_normal(cosine: f32) -> (Vec3, Vec3) {
     (Vec3::new(sine, 0.0, cosine), Vec3::Z)
 }
 
-/// Difference of two hemispherical integrals, `a e^{log amplitude} H(κ₃, z₃) − b H(κ, z)`, that of the product with a
-/// very wide lobe about the normal and that of the lobe itself.
+/// The product with a very wide lobe about the normal: amplitude, sharpness, and cosine of its axis.
+///
+/// Lights of 2018 and 2022 are the difference of the hemispherical integrals of that product and of the lobe itself.
 #[inline(always)]
-fn two_lobes(k: f32, z: f32, wide: f32, a: f32, b: f32, integral: impl Fn(f32, f32) -> f32) -> f32 {
+fn widened(k: f32, z: f32, wide: f32) -> (f32, f32, f32) {
     let (axis, normal) = axis_and_normal(z);
     let p = lobe::product(axis, k, normal, wide);
-    (a * exp(p.log_amplitude) * integral(p.sharpness, p.axis.z.clamp(-1.0, 1.0))
-        - b * integral(k, z))
-    .max(0.0)
+    (exp(p.log_amplitude), p.sharpness, p.axis.z.clamp(-1.0, 1.0))
 }
 
 /// Two hemispherical integrals of 2018, clamped to zero where their difference is negative. Superseded.
@@ -119,7 +118,9 @@ fn two_lobes(k: f32, z: f32, wide: f32, a: f32, b: f32, integral: impl Fn(f32, f
 #[must_use]
 pub fn lobes_2018(sharpness: f32, cosine: f32) -> f32 {
     let k = sharpness.min(SHARPNESS_MAX);
-    two_lobes(k, cosine, 0.0315, 32.708, 31.703, hemisphere::integral_2018)
+    let (amplitude, k3, z3) = widened(k, cosine, 0.0315);
+    let product = 32.708 * amplitude * hemisphere::integral_2018(k3, z3);
+    (product - 31.703 * hemisphere::integral_2018(k, cosine)).max(0.0)
 }
 
 /// Two hemispherical integrals of 2022, clamped to zero where their difference is negative. Superseded.
@@ -130,14 +131,9 @@ pub fn lobes_2018(sharpness: f32, cosine: f32) -> f32 {
 #[must_use]
 pub fn lobes_2022(sharpness: f32, cosine: f32) -> f32 {
     let k = sharpness.min(SHARPNESS_MAX);
-    two_lobes(
-        k,
-        cosine,
-        8.456_087e-4,
-        1_183.246_8,
-        1_182.246_7,
-        hemisphere::integral_2022,
-    )
+    let (amplitude, k3, z3) = widened(k, cosine, 8.456_087e-4);
+    let product = 1_183.246_8 * amplitude * hemisphere::integral_2022(k3, z3);
+    (product - 1_182.246_7 * hemisphere::integral_2022(k, cosine)).max(0.0)
 }
 
 /// `v = (1 + z)/2 − (S(t) − S(t|z|))/(2t)`, see the module.
