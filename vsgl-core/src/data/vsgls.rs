@@ -43,18 +43,19 @@ pub struct DiffuseVsgl {
     /// Radiant intensity along the axis of a flat cluster [W/sr]: reflected flux over π; with `sg` flux over the
     /// integral of the lobe.
     pub intensity: [f32; 3],
-    /// Fourth power of the mean length of the normals: 1 flat, 0 all ways round.
-    pub flatness: f32,
-    /// Unit direction to the light.
-    pub light: [f32; 3],
     /// One minus the vMF mean length of `sharpness`.
     pub complement: f32,
+    /// Unit direction to the light.
+    pub light: [f32; 3],
     /// Dielectric reflectance at normal incidence, mean.
     pub f0: f32,
+    /// Covariance of positions, xx yy zz xy xz yz [m²].
+    pub covariance: [f32; 6],
     /// Dielectric reflectance at grazing incidence, mean.
     pub f90: f32,
-    /// Zero; they keep the record a multiple of 16 bytes.
-    pub padding: [f32; 2],
+    /// How far along `axis` the surfaces' planes lie above the mean position, in the mean [m]: positive on a bulge,
+    /// negative in a hollow, zero on a plane. Light leaves as from there.
+    pub bulge: f32,
 }
 
 /// Light that a cluster sends by its specular part.
@@ -86,14 +87,14 @@ pub struct SpecularVsgl {
     pub alpha: f32,
     /// Arriving flux times `F90` [W].
     pub f90: [f32; 3],
-    /// Fourth power of the mean length of the normals.
-    pub flatness: f32,
     /// One minus the vMF mean length of `sharpness`.
     pub complement: f32,
+    /// Covariance of positions, xx yy zz xy xz yz [m²].
+    pub covariance: [f32; 6],
     /// One minus the vMF mean length of `sharpness_mirror`.
     pub complement_mirror: f32,
-    /// Zero; they keep the record a multiple of 16 bytes.
-    pub padding: [f32; 2],
+    /// As [`DiffuseVsgl::bulge`] [m].
+    pub bulge: f32,
 }
 
 /// A real point of a cluster's surface, drawn by weight: the mean of a curved cluster lies inside the object.

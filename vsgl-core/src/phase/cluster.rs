@@ -6,7 +6,7 @@ use super::surface::geometric_normal;
 use crate::data::{
     DiffuseVsgl, MapRecord, NO_TRIANGLE, Rsm, SceneData, SpecularVsgl, Target, Vsgls,
 };
-use crate::math::moments::Moments;
+use crate::math::moments::{Moments, Scatter};
 use crate::math::vec::{luminance, normalize, reflect};
 use crate::plan::ClusterPlan;
 use crate::settings::{Emission, SharpnessFit, Variance};
@@ -42,27 +42,35 @@ pub struct Part {
     /// Sum of weights [W].
     pub weight: f32,
     /// Positions [m].
-    pub position: Moments,
+    pub position: Scatter,
     /// Unit normals.
     pub normal: Moments,
+    /// Sum of `weight · (normal − its mean)·(position − its mean)` [W m].
+    pub bulge: f32,
     /// Weighted texel area [W m²].
     pub area: f32,
 }
 
 impl Part {
     fn texel(weight: f32, position: Vec3, normal: Vec3, area: f32) -> Self {
-        let (position, normal) = (Moments::point(position), Moments::point(normal));
+        let (position, normal) = (Scatter::point(position), Moments::point(normal));
         Self {
             weight,
             position,
             normal,
+            bulge: 0.0,
             area: weight * area,
         }
     }
 
     fn merge(self, other: Self) -> Self {
+        let weight = self.weight + other.weight;
+        let share = self.weight * (other.weight / weight.max(f32::MIN_POSITIVE));
+        let apart = other.position.mean - self.position.mean;
+        let turned = other.normal.mean - self.normal.mean;
         Self {
-            weight: self.weight + other.weight,
+            weight,
+            bulge: self.bulge + other.bulge + apart.dot(turned) * share,
             position: self
                 .position
                 .merge(self.weight, other.position, other.weight),
@@ -76,6 +84,7 @@ impl Part {
             weight: self.weight * factor,
             position: self.position.scaled(factor),
             normal: self.normal.scaled(factor),
+            bulge: self.bulge * factor,
             area: self.area * factor,
         }
     }
@@ -197,15 +206,34 @@ fn sharpness_of(mean: vmf::MeanLength, fit: SharpnessFit) -> f32 {
     }
 }
 
-/// Variance of a part along one axis [m²], with the extent of its texels added.
-fn variance_of(part: &Part, convention: Variance) -> f32 {
-    let weight = part.weight.max(f32::MIN_POSITIVE);
-    let trace = part.position.spread / weight;
-    let texel = part.area / weight * (1.0 / 12.0);
-    match convention {
-        Variance::PerAxis => 0.5 * trace + texel,
-        Variance::Trace => trace + texel,
-    }
+/// Extent of a part: variance along one axis in its surface [m²], and covariance, xx yy zz xy xz yz.
+///
+/// Both hold the extent of the texels themselves, squares of which each has a twelfth of its area along either side.
+fn extent_of(part: &Part, axis: Vec3, convention: Variance) -> (f32, [f32; 6]) {
+    let scale = 1.0 / part.weight.max(f32::MIN_POSITIVE);
+    let texel = part.area * scale * (1.0 / 12.0);
+    let flat = (Vec3::ONE - axis * axis) * texel;
+    let tilt = Vec3::new(axis.x * axis.y, axis.x * axis.z, axis.y * axis.z) * texel;
+    let diagonal = part.position.diagonal * scale + flat;
+    let rest = part.position.rest * scale - tilt;
+    let trace = diagonal.x + diagonal.y + diagonal.z;
+    let variance = match convention {
+        Variance::PerAxis => 0.5 * trace,
+        Variance::Trace => trace,
+    };
+    (
+        variance,
+        [diagonal.x, diagonal.y, diagonal.z, rest.x, rest.y, rest.z],
+    )
+}
+
+/// Height above the mean position, along the mean normal, at which a point lies in the surfaces' planes in the mean [m].
+///
+/// `E[n·(x − y)] = r ν·(x − μ) − E[δn·δy]`, so the planes' height is the covariance of normal and position over `r`.
+/// Bounded by the cluster's size, for clusters that face all ways round.
+fn bulge_of(part: &Part, mean_length: f32, variance: f32) -> f32 {
+    let size = 2.0 * variance.sqrt();
+    (part.bulge / (part.weight * mean_length).max(f32::MIN_POSITIVE)).clamp(-size, size)
 }
 
 /// The lights that stand for a cluster under the light of `map`.
@@ -233,19 +261,19 @@ fn diffuse_cosine(sum: &Sum, map: &MapRecord, plan: &ClusterPlan) -> DiffuseVsgl
         };
     }
     let (axis, mean) = part.facing();
-    let square = mean.length * mean.length;
+    let (variance, covariance) = extent_of(part, axis, plan.variance);
     DiffuseVsgl {
         position: part.position.mean.to_array(),
-        variance: variance_of(part, plan.variance),
+        variance,
         axis: axis.to_array(),
         sharpness: sharpness_of(mean, plan.sharpness),
         intensity: (sum.power * std::f32::consts::FRAC_1_PI).to_array(),
-        flatness: square * square,
+        covariance,
         light: to_light(map, part.position.mean),
         complement: mean.complement,
         f0: sum.dielectric[0] / part.weight,
         f90: sum.dielectric[1] / part.weight,
-        padding: [0.0; 2],
+        bulge: bulge_of(part, mean.length, variance),
     }
 }
 
@@ -264,10 +292,10 @@ fn specular_cosine(sum: &Sum, map: &MapRecord, plan: &ClusterPlan) -> SpecularVs
     let (axis, mean) = part.facing();
     let (mirror, mean_mirror) = facing(&sum.mirror, part.weight);
     let lobe = vmf::MeanLength::from_length(sum.lobe.length() / part.weight);
-    let square = mean.length * mean.length;
+    let (variance, covariance) = extent_of(part, axis, plan.variance);
     SpecularVsgl {
         position: part.position.mean.to_array(),
-        variance: variance_of(part, plan.variance),
+        variance,
         axis: axis.to_array(),
         sharpness: sharpness_of(mean, plan.sharpness),
         mirror: mirror.to_array(),
@@ -277,10 +305,10 @@ fn specular_cosine(sum: &Sum, map: &MapRecord, plan: &ClusterPlan) -> SpecularVs
         f0: sum.f0.to_array(),
         alpha: (sum.alpha2 / part.weight).sqrt(),
         f90: sum.f90.to_array(),
-        flatness: square * square,
+        covariance,
         complement: mean.complement,
         complement_mirror: mean_mirror.complement,
-        padding: [0.0; 2],
+        bulge: bulge_of(part, mean.length, variance),
     }
 }
 
@@ -290,7 +318,7 @@ fn specular_cosine(sum: &Sum, map: &MapRecord, plan: &ClusterPlan) -> SpecularVs
 fn lights_sg(sum: &Sum, map: &MapRecord, plan: &ClusterPlan) -> (DiffuseVsgl, SpecularVsgl) {
     let both = sum.diffuse.merge(sum.specular);
     let position = both.position.mean.to_array();
-    let variance = variance_of(&both, plan.variance);
+    let (variance, _) = extent_of(&both, both.facing().0, plan.variance);
     let light = to_light(map, both.position.mean);
 
     let lambert_length = match plan.sharpness {

@@ -14,7 +14,7 @@ pub const FEATURES: usize = 6;
 /// Lanes of the sums over a set.
 pub const LANES: usize = 16;
 /// How much a unit normal counts beside a position in units of the map's spread.
-pub const NORMAL_SCALE: f32 = 0.5;
+pub const NORMAL_SCALE: f32 = 0.35;
 
 /// Features of a texel: position relative to `centre` in units of `spread`, and the normal scaled.
 pub fn features(rsm: &Rsm, texel: usize, centre: [f32; 3], spread: f32) -> [f32; FEATURES] {

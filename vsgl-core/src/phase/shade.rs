@@ -75,13 +75,26 @@ fn path(position: Vec3, variance: f32, receiver: Vec3) -> Path {
     }
 }
 
-/// Sharpness towards a direction at `cosine` to the cluster's normal, from that across it.
-///
-/// The variance along a direction `a` of a flat cluster with normal `ν` is `σ² (1 − r⁴ (a·ν)²)`.
+/// Sharpness of a cluster's extent along a unit direction, from that across the line of sight: their variances are as
+/// `aᵀ C a` to `variance`.
 #[inline(always)]
-fn sharpness_along(sharpness: f32, flatness: f32, cosine: f32) -> f32 {
-    let share = 1.0 - flatness * (cosine * cosine);
-    (sharpness / share.max(1e-12)).min(SHARPNESS_MAX)
+fn sharpness_along(sharpness: f32, variance: f32, covariance: &[f32; 6], direction: Vec3) -> f32 {
+    let [xx, yy, zz, xy, xz, yz] = *covariance;
+    let (x, y, z) = (direction.x, direction.y, direction.z);
+    let squares = xx * (x * x) + yy * (y * y) + zz * (z * z);
+    let crossed = xy * (x * y) + xz * (x * z) + yz * (y * z);
+    // Rounding can leave less than nothing where the cluster is flat.
+    let along = (squares + 2.0 * crossed)
+        .max(1e-12 * variance)
+        .max(VARIANCE_MIN);
+    (sharpness * (variance / along)).min(SHARPNESS_MAX)
+}
+
+/// Unit direction in which light leaves a cluster towards a receiver: from where its surfaces' planes lie in the mean, so
+/// that a receiver on the same convex surface gets none.
+#[inline(always)]
+fn leaving(position: [f32; 3], axis: Vec3, bulge: f32, receiver: Vec3) -> Vec3 {
+    normalize(receiver - (Vec3::from_array(position) + axis * bulge))
 }
 
 /// Share that a dielectric's Lambert part keeps: one minus its reflectance, at a half-vector cosine.
@@ -105,8 +118,8 @@ fn mean_length(complement: f32) -> vmf::MeanLength {
 pub fn incoming_diffuse(light: &DiffuseVsgl, receiver: Vec3, normal: Vec3) -> Incoming {
     let path = path(Vec3::from_array(light.position), light.variance, receiver);
     let axis = Vec3::from_array(light.axis);
-    let outgoing = -path.direction;
-    let blur = sharpness_along(path.sharpness, light.flatness, 1.0);
+    let outgoing = leaving(light.position, axis, light.bulge, receiver);
+    let blur = sharpness_along(path.sharpness, light.variance, &light.covariance, axis);
     let sharpness = vmf::convolve_with(mean_length(light.complement), blur);
     let mean_cosine = cosine::mean_clamped_cosine(sharpness, outgoing.dot(axis));
     let half = half_cosine(Vec3::from_array(light.light), outgoing);
@@ -114,7 +127,7 @@ pub fn incoming_diffuse(light: &DiffuseVsgl, receiver: Vec3, normal: Vec3) -> In
     Incoming {
         axis: path.direction,
         sharpness: path.sharpness,
-        horizon: sharpness_along(path.sharpness, light.flatness, normal.dot(axis)),
+        horizon: sharpness_along(path.sharpness, light.variance, &light.covariance, normal),
         strength: Vec3::from_array(light.intensity) * factor,
     }
 }
@@ -132,9 +145,9 @@ pub fn incoming_specular(
 ) -> Incoming {
     let path = path(Vec3::from_array(light.position), light.variance, receiver);
     let axis = Vec3::from_array(light.axis);
-    let outgoing = -path.direction;
+    let outgoing = leaving(light.position, axis, light.bulge, receiver);
     let across = vmf::mean(path.sharpness);
-    let along = sharpness_along(path.sharpness, light.flatness, 1.0);
+    let along = sharpness_along(path.sharpness, light.variance, &light.covariance, axis);
     let lobe = vmf::sharpness(mean_length(light.complement_mirror).convolve(across));
     let horizon = vmf::convolve_with(mean_length(light.complement), along);
     let reflected = sender.masked(outgoing, lobe, horizon) * path.spread;
@@ -149,7 +162,12 @@ pub fn incoming_specular(
     Incoming {
         axis: arriving.axis,
         sharpness: arriving.sharpness,
-        horizon: sharpness_along(arriving.sharpness, light.flatness, normal.dot(axis)),
+        horizon: sharpness_along(
+            arriving.sharpness,
+            light.variance,
+            &light.covariance,
+            normal,
+        ),
         strength: (f0 + (f90 - f0) * grazing) * reflected,
     }
 }

@@ -315,8 +315,16 @@ mod tests {
             let (view, axis) = (tilted(0.6, 0.1), tilted(0.7, 2.9));
             let local = FilteredView::reflection(view, alpha, alpha);
             let world = GlossyView::new(view, Vec3::Z, alpha);
-            assert!((local.reflected_density(axis, k) / world.density(axis, k) - 1.0).abs() < 1e-5);
-            assert!((local.masked(axis, k, k) / world.masked(axis, k, k) - 1.0).abs() < 1e-5);
+            assert!(
+                (local.reflected_density(axis, k) / world.density_2024(axis, k) - 1.0).abs() < 1e-5
+            );
+            assert!(
+                (local.masked(axis, k, k)
+                    / (world.masked_share(axis, k) * world.density_2024(axis, k))
+                    - 1.0)
+                    .abs()
+                    < 1e-5
+            );
         }
     }
 
