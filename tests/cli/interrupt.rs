@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 #[test]
 fn ctrl_c_ends_with_130_and_leaves_no_file() {
     let folder = Folder::new();
-    let slow = "--size 2000x2000 --method vpl --rsm 512 --progress always";
+    let slow = "--size 1000x1000 --method vpl --rsm 64 --progress always";
     let mut child = folder
         .command(&format!("render -o a.png -o a.exr {slow}"))
         .stderr(Stdio::piped())

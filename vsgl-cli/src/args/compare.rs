@@ -17,9 +17,9 @@ Metrics are taken on linear luminance, 0.2126 R + 0.7152 G + 0.0722 B. With x of
   mape         100 mean(|x - r| / max(r, eps))
   mape_median  the median in place of that mean
   smape        100 mean(|x - r| / max((|x| + |r|) / 2, eps)), 0 to 200
-  psnr         20 log10(max(r) / rmse)
+  psnr         20 log10(max(r) / rmse); of equal pictures infinite, null in JSON
   mae          mean(|x - r|)
-  bias         100 (mean(x) / mean(r) - 1)
+  bias         100 (mean(x) / mean(r) - 1); a limit is for its size
 Pixels where r is exactly 0 received no light; they, and blocks that hold one, are left out and counted. So are pixels
 that are not finite; with one of those every limit counts as exceeded.";
 

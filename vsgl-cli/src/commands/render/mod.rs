@@ -3,19 +3,19 @@
 mod report;
 
 use super::{dump, facts};
-use crate::args::{BackendName, OutputArgs, RenderArgs};
+use crate::args::{BackendName, OutputArgs, RenderArgs, When};
 use crate::exit::{Failure, Result};
 use crate::job::Job;
 use crate::output::{self, Format, Metadata, Pending};
 use crate::picture::Picture;
 use crate::progress::Progress;
 use crate::{interrupt, text};
-use report::{Report, Written};
+use report::{Report, Seconds, Written};
 use serde_json::Value;
 use std::time::Instant;
 use vsgl_core::backend::Backend;
 use vsgl_core::data::{Image, SceneData};
-use vsgl_core::render::{Frame, Phase, render};
+use vsgl_core::render::{Frame, render};
 use vsgl_cpu::CpuBackend;
 
 /// Renders and writes.
@@ -34,14 +34,11 @@ pub(super) fn run(args: &RenderArgs) -> Result<()> {
             job.name
         )));
     }
-    if !out.quiet {
-        job.warnings
-            .iter()
-            .for_each(|w| text::warn(&format!("warning: {w}")));
-    }
+    warn(out, &job.warnings);
+    // Before there are temporary files to remove.
+    interrupt::listen()?;
     let files = output::open_all(&out.files)?;
     let dump = out.dump.as_deref().map(dump::prepare).transpose()?;
-    interrupt::listen()?;
     match out.backend {
         BackendName::Auto | BackendName::Cpu => {
             let backend = CpuBackend::new(out.threads)?;
@@ -59,31 +56,10 @@ fn work<B: Backend>(
     files: Vec<(Format, Pending)>,
     dump: Option<dump::Dump>,
 ) -> Result<()> {
-    let start = Instant::now();
-    let scene = backend.upload(SceneData::new(&job.scene))?;
-    let prepared = start.elapsed().as_secs_f64();
-    let progress = Progress::new(if out.quiet {
-        crate::args::When::Never
-    } else {
-        out.progress
-    });
-    let frame = render(
-        backend,
-        &scene,
-        &job.lights,
-        &job.view,
-        &job.plan,
-        &progress,
-    );
-    let times = progress.finish();
-    let frame: Frame<B> = frame?;
+    let (frame, mut seconds) = draw(backend, job, out)?;
     let image = backend.download(&frame.image)?;
     let notes = notes(&image, dump.is_some() && frame.rsm.is_none());
-    if !out.quiet {
-        notes
-            .iter()
-            .for_each(|note| text::warn(&format!("warning: {note}")));
-    }
+    warn(out, &notes);
 
     let start = Instant::now();
     let mut written = Vec::new();
@@ -97,12 +73,6 @@ fn work<B: Backend>(
             written.push(Written::new(path.to_string_lossy().into_owned(), format));
         }
     }
-    let mut seconds = vec![("scene".to_owned(), prepared)];
-    seconds.extend(
-        times
-            .iter()
-            .map(|(p, t): &(Phase, _)| (p.to_string(), t.as_secs_f64())),
-    );
     seconds.push(("write".into(), start.elapsed().as_secs_f64()));
     let clusters = match &frame.vsgls {
         Some(vsgls) => Some(backend.download(vsgls)?.count),
@@ -125,6 +95,34 @@ fn work<B: Backend>(
         return Ok(());
     }
     text::print(&report.text())
+}
+
+/// Renders, and returns what it was made of with the seconds of each phase.
+fn draw<B: Backend>(backend: &B, job: &Job, out: &OutputArgs) -> Result<(Frame<B>, Seconds)> {
+    let start = Instant::now();
+    let scene = backend.upload(SceneData::new(&job.scene))?;
+    let mut seconds = vec![("scene".to_owned(), start.elapsed().as_secs_f64())];
+    let progress = Progress::new(if out.quiet { When::Never } else { out.progress });
+    let frame = render(
+        backend,
+        &scene,
+        &job.lights,
+        &job.view,
+        &job.plan,
+        &progress,
+    );
+    for (phase, time) in progress.finish() {
+        seconds.push((phase.to_string(), time.as_secs_f64()));
+    }
+    Ok((frame?, seconds))
+}
+
+fn warn(out: &OutputArgs, warnings: &[String]) {
+    if !out.quiet {
+        warnings
+            .iter()
+            .for_each(|w| text::warn(&format!("warning: {w}")));
+    }
 }
 
 /// What the user should know about the result.

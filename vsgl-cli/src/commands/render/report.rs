@@ -24,6 +24,9 @@ impl Written {
     }
 }
 
+/// Wall time of each phase.
+pub(super) type Seconds = Vec<(String, f64)>;
+
 /// What was done.
 pub(super) struct Report<'a> {
     pub(super) job: &'a Job,
@@ -31,7 +34,7 @@ pub(super) struct Report<'a> {
     pub(super) backend: &'static str,
     pub(super) device: &'a str,
     pub(super) clusters: Option<u32>,
-    pub(super) seconds: Vec<(String, f64)>,
+    pub(super) seconds: Seconds,
     pub(super) written: Vec<Written>,
     pub(super) notes: Vec<String>,
 }
