@@ -10,7 +10,7 @@
 //! | `container`, `files`, `uri` | bytes: the file, files beside it, data inside it |
 //! | `document` | JSON to typed values, extensions, lookups that cannot miss |
 //! | `buffers`, `accessor` | elements of vertex attributes and indices |
-//! | `topology`, `primitive` | triangles of one primitive in its own space |
+//! | `topology`, `sharing`, `primitive` | triangles of one primitive in its own space |
 //! | `nodes`, `assemble` | the tree of nodes, and all triangles in one space |
 //! | `materials`, `images` | surfaces |
 //! | `lights`, `cameras` | what stands in the nodes besides meshes |
@@ -29,6 +29,7 @@ mod limits;
 mod materials;
 mod nodes;
 mod primitive;
+mod sharing;
 mod topology;
 mod uri;
 mod warnings;

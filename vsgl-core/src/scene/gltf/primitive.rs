@@ -6,13 +6,13 @@ use super::document::Document;
 use super::fault::{Fault, Result};
 use super::limits::Limits;
 use super::materials::{Mapping, Materials};
+use super::sharing::{compact, unshared};
 use super::topology::Topology;
 use super::warnings::Warnings;
 use glam::{DVec3, Vec2, Vec3};
 use gltf::json::mesh::{self, Mode, Semantic};
 use gltf::json::validation::Checked;
 use gltf::json::{Accessor, Index};
-use std::collections::HashMap;
 
 /// Indexed triangles with only those vertices that they use.
 pub(super) struct Primitive {
@@ -279,41 +279,6 @@ fn usable(normal: Vec3) -> Vec3 {
     } else {
         Vec3::ZERO
     }
-}
-
-/// Triangles with indices into a list of only those vertices that they use, and that list.
-fn compact(mut triangles: Vec<[u32; 3]>, vertices: usize) -> (Vec<[u32; 3]>, Vec<u32>) {
-    let mut sources = Vec::new();
-    let corners = triangles.as_flattened_mut();
-    // A table as long as the attributes pays only if much of it is used.
-    if vertices / 8 <= corners.len() {
-        let mut places = vec![u32::MAX; vertices];
-        for corner in corners.iter_mut() {
-            let place = &mut places[*corner as usize];
-            if *place == u32::MAX {
-                *place = sources.len() as u32;
-                sources.push(*corner);
-            }
-            *corner = *place;
-        }
-    } else {
-        let mut places = HashMap::new();
-        for corner in corners.iter_mut() {
-            let place = *places.entry(*corner).or_insert_with(|| {
-                sources.push(*corner);
-                (sources.len() - 1) as u32
-            });
-            *corner = place;
-        }
-    }
-    (triangles, sources)
-}
-
-/// Triangles that share no vertex, so that each can have its own normal.
-fn unshared(triangles: Vec<[u32; 3]>) -> (Vec<[u32; 3]>, Vec<u32>) {
-    let own = |i: u32| [3 * i, 3 * i + 1, 3 * i + 2];
-    let numbered = (0..triangles.len() as u32).map(own).collect();
-    (numbered, triangles.into_iter().flatten().collect())
 }
 
 /// Twice the area of a triangle along its normal. Zero for a line or a point: the corners are f32, this is f64.
