@@ -15,6 +15,9 @@ use std::thread;
 /// A JPEG file with more scans than this is built to keep a decoder busy; ordinary ones have about ten.
 const SCANS_MAX: usize = 100;
 
+/// Memory for what stands before the texels, such as a colour profile, which may be packed a thousandfold.
+const HEADER_BYTES: u64 = 32 << 20;
+
 /// An image that is known to be of a format and size that can be decoded.
 struct Encoded<'a> {
     /// Index in the file.
@@ -130,7 +133,9 @@ fn encoded<'a>(
 
 /// Texels by the header; those of 16 bits count twice.
 fn texels(bytes: &[u8], format: ImageFormat) -> image::ImageResult<u64> {
-    let decoder = ImageReader::with_format(Cursor::new(bytes), format).into_decoder()?;
+    let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
+    reader.limits(memory(HEADER_BYTES));
+    let decoder = reader.into_decoder()?;
     let (width, height) = decoder.dimensions();
     let color = decoder.color_type();
     let wide = u64::from(color.bytes_per_pixel() > color.channel_count());
@@ -141,10 +146,8 @@ impl Encoded<'_> {
     fn decode(&self) -> Result<Texture> {
         let broken = |e: image::ImageError| undecodable(self.index, &e.to_string());
         let mut reader = ImageReader::with_format(Cursor::new(&self.bytes[..]), self.format);
-        let mut limits = image::Limits::default();
         // Four channels, and as much again to work with.
-        limits.max_alloc = Some(self.texels * 8 + (16 << 20));
-        reader.limits(limits);
+        reader.limits(memory(self.texels * 8 + HEADER_BYTES));
         let decoder = reader.into_decoder().map_err(broken)?;
         let (width, height) = decoder.dimensions();
         let image = image::DynamicImage::from_decoder(decoder).map_err(broken)?;
@@ -159,6 +162,12 @@ impl Encoded<'_> {
             texels,
         })
     }
+}
+
+fn memory(bytes: u64) -> image::Limits {
+    let mut limits = image::Limits::default();
+    limits.max_alloc = Some(bytes);
+    limits
 }
 
 /// By the first bytes: the type that files name is often wrong.
