@@ -63,6 +63,12 @@ impl Receivers {
     }
 
     #[inline(always)]
+    fn glossy(&self, lane: usize) -> GlossyView {
+        let r = self.lane(lane);
+        GlossyView::new(r.view, r.normal, r.alpha)
+    }
+
+    #[inline(always)]
     fn lane(&self, lane: usize) -> Receiver {
         Receiver {
             position: get(&self.position, lane),
@@ -84,26 +90,37 @@ struct Arriving {
     strength: Vec3Lanes,
 }
 
-impl Arriving {
-    #[inline(always)]
-    fn of(incoming: impl Fn(usize) -> Incoming) -> Self {
+/// [`Arriving`] from a text a lane. A macro: a closure would be compiled for the baseline machine and called.
+macro_rules! arriving {
+    ($lane:ident => $text:expr) => {{
         let zero = [[0.0; LANES]; 3];
-        let mut all = Self {
+        let mut all = Arriving {
             axis: zero,
             sharpness: [0.0; LANES],
             horizon: [0.0; LANES],
             strength: zero,
         };
-        for lane in 0..LANES {
-            let one = incoming(lane);
-            set(&mut all.axis, lane, one.axis);
-            all.sharpness[lane] = one.sharpness;
-            all.horizon[lane] = one.horizon;
-            set(&mut all.strength, lane, one.strength);
+        for $lane in 0..LANES {
+            let one: Incoming = $text;
+            set(&mut all.axis, $lane, one.axis);
+            all.sharpness[$lane] = one.sharpness;
+            all.horizon[$lane] = one.horizon;
+            set(&mut all.strength, $lane, one.strength);
         }
         all
-    }
+    }};
+}
 
+/// Writes a text a lane into an array.
+macro_rules! lanes {
+    ($out:ident, $lane:ident => $text:expr) => {
+        for $lane in 0..LANES {
+            $out[$lane] = $text;
+        }
+    };
+}
+
+impl Arriving {
     #[inline(always)]
     fn lane(&self, lane: usize) -> Incoming {
         Incoming {
@@ -147,8 +164,11 @@ impl Sums {
     /// Whether a lane holds any light.
     #[inline(always)]
     pub fn lit(&self, lane: usize) -> bool {
-        let all = |v: &Vec3Lanes| v[0][lane] + v[1][lane] + v[2][lane];
-        all(&self.diffuse) + (all(&self.near) + all(&self.grazing)) > 0.0
+        let (d, n, g) = (&self.diffuse, &self.near, &self.grazing);
+        let diffuse = d[0][lane] + d[1][lane] + d[2][lane];
+        let near = n[0][lane] + n[1][lane] + n[2][lane];
+        let grazing = g[0][lane] + g[1][lane] + g[2][lane];
+        diffuse + (near + grazing) > 0.0
     }
 }
 
@@ -169,13 +189,6 @@ fn reflect(
     glossy: bool,
 ) {
     let mut lambert = [0.0; LANES];
-    macro_rules! lanes {
-        ($out:ident, $lane:ident => $text:expr) => {
-            for $lane in 0..LANES {
-                $out[$lane] = $text;
-            }
-        };
-    }
     match integral {
         Integral::Lobe(DiffuseForm::V13, _) => {
             lanes!(lambert, i => shade::lambert_v13(&arriving.lane(i), &receivers.lane(i)));
@@ -196,16 +209,12 @@ fn reflect(
         return;
     }
     let mut specular = [0.0; LANES];
-    let view = |i: usize| {
-        let r = receivers.lane(i);
-        GlossyView::new(r.view, r.normal, r.alpha)
-    };
     match integral {
         Integral::Lobe(_, GlossyForm::NdfFilter) => {
-            lanes!(specular, i => shade::glossy_masked(&arriving.lane(i), &view(i)));
+            lanes!(specular, i => shade::glossy_masked(&arriving.lane(i), &receivers.glossy(i)));
         }
         Integral::Lobe(_, GlossyForm::NdfFilter2024) => {
-            lanes!(specular, i => shade::glossy_2024(&arriving.lane(i), &view(i)));
+            lanes!(specular, i => shade::glossy_2024(&arriving.lane(i), &receivers.glossy(i)));
         }
         Integral::Lobe(_, GlossyForm::Asg2013) => {
             lanes!(specular, i => shade::glossy_asg_2013(&arriving.lane(i), &receivers.lane(i)));
@@ -236,22 +245,15 @@ pub fn vsgl(
 ) -> Sums {
     let mut sums = Sums::default();
     let integral = Integral::Lobe(plan.diffuse, plan.glossy);
-    let point = |i: usize| (receivers.lane(i).position, receivers.lane(i).normal);
     let arriving = match plan.emission {
-        Emission::Cosine => Arriving::of(|i| {
-            let (position, normal) = point(i);
-            shade::incoming_diffuse(diffuse, position, normal)
+        Emission::Cosine => arriving!(i => {
+            let r = receivers.lane(i);
+            shade::incoming_diffuse(diffuse, r.position, r.normal)
         }),
-        Emission::Sg => Arriving::of(|i| {
+        Emission::Sg => arriving!(i => {
             let d = diffuse;
-            shade::incoming_sg(
-                d.position,
-                d.variance,
-                d.axis,
-                d.sharpness,
-                d.intensity,
-                point(i).0,
-            )
+            let from = receivers.lane(i).position;
+            shade::incoming_sg(d.position, d.variance, d.axis, d.sharpness, d.intensity, from)
         }),
     };
     reflect(
@@ -265,20 +267,14 @@ pub fn vsgl(
     let arriving = match plan.emission {
         Emission::Cosine => {
             let sender = shade::sender_view(s);
-            Arriving::of(|i| {
-                let (position, normal) = point(i);
-                shade::incoming_specular(s, &sender, position, normal)
+            arriving!(i => {
+                let r = receivers.lane(i);
+                shade::incoming_specular(s, &sender, r.position, r.normal)
             })
         }
-        Emission::Sg => Arriving::of(|i| {
-            shade::incoming_sg(
-                s.position,
-                s.variance,
-                s.mirror,
-                s.sharpness_lobe,
-                s.f0,
-                point(i).0,
-            )
+        Emission::Sg => arriving!(i => {
+            let from = receivers.lane(i).position;
+            shade::incoming_sg(s.position, s.variance, s.mirror, s.sharpness_lobe, s.f0, from)
         }),
     };
     reflect(
@@ -295,7 +291,7 @@ pub fn vsgl(
 #[inline(always)]
 pub fn vpl(light: &PointSender, receivers: &Receivers, plan: &ShadePlan) -> Sums {
     let mut sums = Sums::default();
-    let arriving = Arriving::of(|i| shade::incoming_point(light, receivers.lane(i).position));
+    let arriving = arriving!(i => shade::incoming_point(light, receivers.lane(i).position));
     reflect(
         &mut sums,
         &arriving,
