@@ -10,10 +10,17 @@ use crate::output::{self, Metadata, Pending};
 use map::Map;
 use std::path::{Path, PathBuf};
 use vsgl_core::backend::Backend;
-use vsgl_core::render::Frame;
+use vsgl_core::data::{Pdf, Rsm, Vsgls};
 
 /// Most maps that are drawn.
 const MAPS_MAX: u32 = 16;
+
+/// What light bounces from, where the backend keeps it.
+pub(super) struct Senders<B: Backend> {
+    pub(super) rsm: Option<B::Res<Rsm>>,
+    pub(super) pdf: Option<B::Res<Pdf>>,
+    pub(super) vsgls: Option<B::Res<Vsgls>>,
+}
 
 /// A folder for the pictures.
 pub(super) struct Dump {
@@ -39,19 +46,19 @@ impl Dump {
     pub(super) fn write<B: Backend>(
         &self,
         backend: &B,
-        frame: &Frame<B>,
+        senders: &Senders<B>,
         metadata: &Metadata,
     ) -> Result<Vec<(PathBuf, &'static str)>> {
-        let Some(rsm) = &frame.rsm else {
+        let Some(rsm) = &senders.rsm else {
             return Ok(Vec::new());
         };
         let rsm = backend.download(rsm)?;
-        let pdf = frame
+        let pdf = senders
             .pdf
             .as_ref()
             .map(|p| backend.download(p))
             .transpose()?;
-        let vsgls = frame
+        let vsgls = senders
             .vsgls
             .as_ref()
             .map(|v| backend.download(v))

@@ -15,7 +15,7 @@ use serde_json::Value;
 use std::time::Instant;
 use vsgl_core::backend::Backend;
 use vsgl_core::data::{Image, SceneData};
-use vsgl_core::render::{Frame, render};
+use vsgl_core::render::render;
 use vsgl_cpu::CpuBackend;
 
 /// Renders and writes.
@@ -56,9 +56,8 @@ fn work<B: Backend>(
     files: Vec<(Format, Pending)>,
     dump: Option<dump::Dump>,
 ) -> Result<()> {
-    let (frame, mut seconds) = draw(backend, job, out)?;
-    let image = backend.download(&frame.image)?;
-    let notes = notes(&image, dump.is_some() && frame.rsm.is_none());
+    let (image, senders, mut seconds) = draw(backend, job, out)?;
+    let notes = notes(&image, dump.is_some() && senders.rsm.is_none());
     warn(out, &notes);
 
     let start = Instant::now();
@@ -69,12 +68,12 @@ fn work<B: Backend>(
     }
     if let Some(dump) = dump {
         let metadata = metadata(job, job.metadata(backend.name()), &job.words());
-        for (path, format) in dump.write(backend, &frame, &metadata)? {
+        for (path, format) in dump.write(backend, &senders, &metadata)? {
             written.push(Written::new(path.to_string_lossy().into_owned(), format));
         }
     }
     seconds.push(("write".into(), start.elapsed().as_secs_f64()));
-    let clusters = match &frame.vsgls {
+    let clusters = match &senders.vsgls {
         Some(vsgls) => Some(backend.download(vsgls)?.count),
         None => None,
     };
@@ -97,8 +96,12 @@ fn work<B: Backend>(
     text::print(&report.text())
 }
 
-/// Renders, and returns what it was made of with the seconds of each phase.
-fn draw<B: Backend>(backend: &B, job: &Job, out: &OutputArgs) -> Result<(Frame<B>, Seconds)> {
+/// Renders. What the camera sees is let go: a large picture needs the room while it is written.
+fn draw<B: Backend>(
+    backend: &B,
+    job: &Job,
+    out: &OutputArgs,
+) -> Result<(Image, dump::Senders<B>, Seconds)> {
     let start = Instant::now();
     let scene = backend.upload(SceneData::new(&job.scene))?;
     let mut seconds = vec![("scene".to_owned(), start.elapsed().as_secs_f64())];
@@ -114,7 +117,14 @@ fn draw<B: Backend>(backend: &B, job: &Job, out: &OutputArgs) -> Result<(Frame<B
     for (phase, time) in progress.finish() {
         seconds.push((phase.to_string(), time.as_secs_f64()));
     }
-    Ok((frame?, seconds))
+    let frame = frame?;
+    let image = backend.download(&frame.image)?;
+    let senders = dump::Senders {
+        rsm: frame.rsm,
+        pdf: frame.pdf,
+        vsgls: frame.vsgls,
+    };
+    Ok((image, senders, seconds))
 }
 
 fn warn(out: &OutputArgs, warnings: &[String]) {
