@@ -7,7 +7,7 @@ mod side;
 use crate::args::{CompareArgs, Limit};
 use crate::exit::{Failure, Result};
 use crate::output::{self, Format, Metadata, Pending};
-use crate::text;
+use crate::{interrupt, text};
 use side::Side;
 use std::path::Path;
 use vsgl_core::metrics::{Errors, Metric, compare};
@@ -20,6 +20,7 @@ const SIDE: u32 = 8;
 /// # Errors
 /// [`Failure::OverLimit`] if a limit is exceeded, and what reading and writing return.
 pub(super) fn run(args: &CompareArgs) -> Result<()> {
+    interrupt::listen()?;
     let map = args
         .output
         .as_deref()
@@ -39,6 +40,7 @@ pub(super) fn run(args: &CompareArgs) -> Result<()> {
             "leave --layer away to compare R,G,B",
         ));
     }
+    interrupt::check()?;
     let scales = scales(&test, &reference, args)?;
     let verdicts = verdicts(&scales, &args.fail_above, args.side.is_some());
     if let Some(map) = map {
