@@ -105,7 +105,7 @@ proptest! {
         prop_assert!(p.sharpness >= 0.0 && p.sharpness <= (ca + cb) * (1.0 + ROUNDING));
         prop_assert!(p.log_amplitude <= 0.0 && p.log_amplitude >= -2.0 * ca.min(cb) * (1.0 + ROUNDING) - f32::MIN_POSITIVE);
         let inner = lobe::inner_product(a, ka, b, kb);
-        prop_assert!(inner >= 0.0 && inner <= 12.566_372);
+        prop_assert!((0.0..=12.566_372).contains(&inner));
         prop_assert!(lobe::log_inner_product(a, ka, b, kb).is_finite());
         prop_assert!(lobe::inner_product_sharp(a, ka, b, kb) >= 0.0);
         let (sharpness, log_amplitude) = lobe::product_by_chord(ka, kb, (a - b).length_squared());

@@ -68,11 +68,7 @@ pub trait Backend: Sized {
     /// If the device failed; [`crate::Error::Cancelled`] if the observer says so.
     fn shade(
         &self,
-        scene: &Self::Res<SceneData>,
-        gbuffer: &Self::Res<GBuffer>,
-        view: &View,
-        lights: &[Light],
-        senders: Senders<'_, Self>,
+        inputs: &ShadeInputs<'_, Self>,
         plan: &ShadePlan,
         observer: &dyn Observer,
     ) -> Result<Self::Res<Radiance>>;
@@ -86,6 +82,20 @@ pub trait Backend: Sized {
         radiance: &Self::Res<Radiance>,
         view: &View,
     ) -> Result<Self::Res<Image>>;
+}
+
+/// What shading reads.
+pub struct ShadeInputs<'a, B: Backend> {
+    /// The scene, for shadow rays.
+    pub scene: &'a B::Res<SceneData>,
+    /// The receivers.
+    pub gbuffer: &'a B::Res<GBuffer>,
+    /// The view that they were seen through.
+    pub view: &'a View,
+    /// Lights that shine on them directly.
+    pub lights: &'a [Light],
+    /// Lights that shine on them by one bounce.
+    pub senders: Senders<'a, B>,
 }
 
 /// Where indirect light comes from.

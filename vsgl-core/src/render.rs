@@ -1,6 +1,6 @@
 //! The order of the phases, once for all backends.
 
-use crate::backend::{Backend, Senders};
+use crate::backend::{Backend, Senders, ShadeInputs};
 use crate::data::{GBuffer, Image, Pdf, Radiance, Rsm, SceneData, Vsgls};
 use crate::error::{Error, Result};
 use crate::plan::Plan;
@@ -24,7 +24,7 @@ pub struct View {
 }
 
 impl View {
-    /// Most samples of one picture: their resources stay below about 4 GB.
+    /// Most samples of one picture: rendering them takes at most about 8 GB.
     pub const SAMPLES_MAX: u64 = 1 << 25;
 
     /// One sample a pixel, every pixel.
@@ -190,16 +190,15 @@ pub fn render<B: Backend>(
         (None, Some(rsm)) => Senders::Vpls(rsm),
         (None, None) => Senders::None,
     };
+    let inputs = ShadeInputs {
+        scene,
+        gbuffer: &gbuffer,
+        view,
+        lights,
+        senders,
+    };
     let radiance = run(observer, Phase::Shade, || {
-        backend.shade(
-            scene,
-            &gbuffer,
-            view,
-            lights,
-            senders,
-            &plan.shade,
-            observer,
-        )
+        backend.shade(&inputs, &plan.shade, observer)
     })?;
     let image = run(observer, Phase::Resolve, || {
         backend.resolve(&gbuffer, &radiance, view)

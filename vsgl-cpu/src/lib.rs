@@ -6,7 +6,7 @@
 mod phase;
 
 use std::sync::Arc;
-use vsgl_core::backend::{Backend, Senders};
+use vsgl_core::backend::{Backend, ShadeInputs};
 use vsgl_core::data::{Columns, GBuffer, Image, Pdf, Radiance, Rsm, SceneData, Vsgls};
 use vsgl_core::plan::{ClusterPlan, GBufferPlan, PdfPlan, RsmPlan, ShadePlan};
 use vsgl_core::render::{Observer, View};
@@ -95,18 +95,13 @@ impl Backend for CpuBackend {
 
     fn shade(
         &self,
-        scene: &Arc<SceneData>,
-        gbuffer: &Arc<GBuffer>,
-        view: &View,
-        lights: &[Light],
-        senders: Senders<'_, Self>,
+        inputs: &ShadeInputs<'_, Self>,
         plan: &ShadePlan,
         observer: &dyn Observer,
     ) -> Result<Arc<Radiance>> {
-        let radiance = self
-            .pool
-            .install(|| phase::shade::run(scene, gbuffer, view, lights, &senders, plan, observer));
-        radiance.map(Arc::new)
+        self.pool
+            .install(|| phase::shade::run(inputs, plan, observer))
+            .map(Arc::new)
     }
 
     fn resolve(

@@ -81,7 +81,7 @@ pub struct Spot {
     pub position: [f64; 3],
     /// What it points at, in metres.
     pub target: [f64; 3],
-    /// Radiant intensity on the axis [W/sr].
+    /// Radiant intensity on the axis \[W/sr\].
     pub intensity: [f64; 3],
     /// Half angle beyond which it is dark, in degrees.
     pub outer: f64,

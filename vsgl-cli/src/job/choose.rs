@@ -8,7 +8,7 @@ use vsgl_core::glam::{DVec3, Vec3};
 use vsgl_core::scene::{Camera, Light, Scene, SpotLight};
 use vsgl_core::settings::{Preset, Settings};
 
-/// Greatest distance of an added camera or light from the scene [m]: squares of it fit into f32 with room to spare.
+/// Greatest distance of an added camera or light from the scene \[m\]: squares of it fit into f32 with room to spare.
 const FAR: f64 = 1e9;
 /// Vertical field of view unless told otherwise [degrees].
 const FOV: f64 = 45.0;

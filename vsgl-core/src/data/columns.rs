@@ -67,7 +67,7 @@ pub(crate) fn entries<T: Element>(
     name: &'static str,
     bytes: &[u8],
 ) -> Result<Vec<T>> {
-    if bytes.len() % size_of::<T>() != 0 {
+    if !bytes.len().is_multiple_of(size_of::<T>()) {
         let problem = format!(
             "column `{name}` has {} bytes, not a multiple of {}",
             bytes.len(),

@@ -15,7 +15,7 @@ columns! {
         }
         /// Id of the triangle hit.
         triangle: u32,
-        /// xyz: position [m]; w: depth along the view axis [m].
+        /// xyz: position \[m\]; w: depth along the view axis \[m\].
         position: [f32; 4],
         /// xyz: unit shading normal, turned to the eye; w: dielectric reflectance at grazing incidence.
         normal: [f32; 4],

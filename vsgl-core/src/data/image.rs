@@ -13,28 +13,28 @@ columns! {
             /// Height in pixels.
             height,
         }
-        /// Reflected light of the lights themselves [W/(m² sr)].
+        /// Reflected light of the lights themselves \[W/(m² sr)\].
         direct: [f32; 3],
-        /// One bounce, by the receiver's Lambert part [W/(m² sr)].
+        /// One bounce, by the receiver's Lambert part \[W/(m² sr)\].
         indirect_diffuse: [f32; 3],
-        /// One bounce, by the receiver's specular part [W/(m² sr)].
+        /// One bounce, by the receiver's specular part \[W/(m² sr)\].
         indirect_glossy: [f32; 3],
         /// Albedo of the Lambert part plus specular reflectance at normal incidence.
         albedo: [f32; 3],
         /// Mean of the unit normals, not normalised.
         normal: [f32; 3],
-        /// Mean depth along the view axis over the samples that hit something [m]; 0 where none did.
+        /// Mean depth along the view axis over the samples that hit something \[m\]; 0 where none did.
         depth: f32,
     }
 }
 
 impl Image {
-    /// All light: direct and one bounce [W/(m² sr)].
+    /// All light: direct and one bounce \[W/(m² sr)\].
     pub fn beauty(&self) -> Vec<[f32; 3]> {
         self.layer_sum(&[&self.direct, &self.indirect_diffuse, &self.indirect_glossy])
     }
 
-    /// One bounce, both parts [W/(m² sr)].
+    /// One bounce, both parts \[W/(m² sr)\].
     pub fn indirect(&self) -> Vec<[f32; 3]> {
         self.layer_sum(&[&self.indirect_diffuse, &self.indirect_glossy])
     }

@@ -3,7 +3,7 @@
 use super::columns::columns;
 
 columns! {
-    /// Radiance to the eye from each sample of a [`super::GBuffer`] [W/(m² sr)], kept apart by path.
+    /// Radiance to the eye from each sample of a [`super::GBuffer`] \[W/(m² sr)\], kept apart by path.
     pub struct Radiance = "radiance" {
         head {
             /// Samples in a row.

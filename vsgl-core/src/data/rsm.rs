@@ -19,15 +19,15 @@ columns! {
         map: MapRecord,
         /// Id of the triangle hit.
         triangle: u32,
-        /// xyz: position [m]; w: area of the surface that the texel covers [m²].
+        /// xyz: position \[m\]; w: area of the surface that the texel covers \[m²\].
         position: [f32; 4],
         /// xyz: unit shading normal, turned to the light; w: dielectric reflectance at grazing incidence.
         normal: [f32; 4],
-        /// rgb: arriving flux times albedo of the Lambert part [W]; w: dielectric reflectance at normal incidence.
+        /// rgb: arriving flux times albedo of the Lambert part \[W\]; w: dielectric reflectance at normal incidence.
         diffuse: [f32; 4],
-        /// rgb: arriving flux times `F0` [W]; w: GGX `alpha`. Empty without glossy senders.
+        /// rgb: arriving flux times `F0` \[W\]; w: GGX `alpha`. Empty without glossy senders.
         specular: [f32; 4],
-        /// rgb: arriving flux times `F90` [W]; w: luminance of the flux that the specular part reflects [W].
+        /// rgb: arriving flux times `F90` \[W\]; w: luminance of the flux that the specular part reflects \[W\].
         /// Empty without glossy senders.
         grazing: [f32; 4],
     }
@@ -37,7 +37,7 @@ columns! {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct MapRecord {
-    /// Position of the light [m].
+    /// Position of the light \[m\].
     pub position: [f32; 3],
     /// Tangent of half the map's field of view.
     pub tan_half_fov: f32,
@@ -51,9 +51,9 @@ pub struct MapRecord {
     pub cos_outer: f32,
     /// Unit direction of decreasing row.
     pub up: [f32; 3],
-    /// Solid angle of a texel on the axis [sr].
+    /// Solid angle of a texel on the axis \[sr\].
     pub solid_angle: f32,
-    /// Radiant intensity on the axis [W/sr].
+    /// Radiant intensity on the axis \[W/sr\].
     pub intensity: [f32; 3],
     /// Zero; it keeps the record a multiple of 16 bytes.
     pub padding: f32,

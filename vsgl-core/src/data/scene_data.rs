@@ -12,12 +12,12 @@ columns! {
     /// A triangle's id is its index here.
     pub struct SceneData = "scene" {
         head {
-            /// Bits of the f32 by which ray origins are lifted off surfaces [m].
+            /// Bits of the f32 by which ray origins are lifted off surfaces \[m\].
             lift_bits,
         }
         /// Bounding volume hierarchy, root first; empty without triangles.
         node: BvhNode,
-        /// Corners of each triangle, three after three [m].
+        /// Corners of each triangle, three after three \[m\].
         corner: [f32; 9],
         /// Shading normals at the corners.
         corner_normal: [f32; 9],
@@ -37,7 +37,7 @@ columns! {
 }
 
 impl SceneData {
-    /// Distance by which ray origins are lifted off surfaces [m].
+    /// Distance by which ray origins are lifted off surfaces \[m\].
     pub fn lift(&self) -> f32 {
         f32::from_bits(self.lift_bits)
     }

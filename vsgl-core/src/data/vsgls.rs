@@ -32,15 +32,15 @@ columns! {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct DiffuseVsgl {
-    /// Mean position [m].
+    /// Mean position \[m\].
     pub position: [f32; 3],
-    /// Positional variance along one axis in the surface [m²].
+    /// Positional variance along one axis in the surface \[m²\].
     pub variance: f32,
     /// Mean normal direction, unit; with emission `sg` the axis of the lobe.
     pub axis: [f32; 3],
     /// Sharpness of the distribution of normals; with emission `sg` of the lobe.
     pub sharpness: f32,
-    /// Radiant intensity along the axis of a flat cluster [W/sr]: reflected flux over π; with `sg` flux over the
+    /// Radiant intensity along the axis of a flat cluster \[W/sr\]: reflected flux over π; with `sg` flux over the
     /// integral of the lobe.
     pub intensity: [f32; 3],
     /// One minus the vMF mean length of `sharpness`.
@@ -49,11 +49,11 @@ pub struct DiffuseVsgl {
     pub light: [f32; 3],
     /// Dielectric reflectance at normal incidence, mean.
     pub f0: f32,
-    /// Covariance of positions, xx yy zz xy xz yz [m²].
+    /// Covariance of positions, xx yy zz xy xz yz \[m²\].
     pub covariance: [f32; 6],
     /// Dielectric reflectance at grazing incidence, mean.
     pub f90: f32,
-    /// How far along `axis` the surfaces' planes lie above the mean position, in the mean [m]: positive on a bulge,
+    /// How far along `axis` the surfaces' planes lie above the mean position, in the mean \[m\]: positive on a bulge,
     /// negative in a hollow, zero on a plane. Light leaves as from there.
     pub bulge: f32,
 }
@@ -65,9 +65,9 @@ pub struct DiffuseVsgl {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct SpecularVsgl {
-    /// Mean position [m].
+    /// Mean position \[m\].
     pub position: [f32; 3],
-    /// Positional variance along one axis in the surface [m²].
+    /// Positional variance along one axis in the surface \[m²\].
     pub variance: f32,
     /// Mean normal direction, unit.
     pub axis: [f32; 3],
@@ -81,19 +81,19 @@ pub struct SpecularVsgl {
     pub light: [f32; 3],
     /// Sharpness of the mirrored directions blurred by the lobe of the surface.
     pub sharpness_lobe: f32,
-    /// Arriving flux times `F0` [W]; with emission `sg` the radiant intensity on the axis of the lobe [W/sr].
+    /// Arriving flux times `F0` \[W\]; with emission `sg` the radiant intensity on the axis of the lobe \[W/sr\].
     pub f0: [f32; 3],
     /// GGX `alpha`: root of the mean square.
     pub alpha: f32,
-    /// Arriving flux times `F90` [W].
+    /// Arriving flux times `F90` \[W\].
     pub f90: [f32; 3],
     /// One minus the vMF mean length of `sharpness`.
     pub complement: f32,
-    /// Covariance of positions, xx yy zz xy xz yz [m²].
+    /// Covariance of positions, xx yy zz xy xz yz \[m²\].
     pub covariance: [f32; 6],
     /// One minus the vMF mean length of `sharpness_mirror`.
     pub complement_mirror: f32,
-    /// As [`DiffuseVsgl::bulge`] [m].
+    /// As [`DiffuseVsgl::bulge`] \[m\].
     pub bulge: f32,
 }
 
@@ -101,7 +101,7 @@ pub struct SpecularVsgl {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct Target {
-    /// Position [m].
+    /// Position \[m\].
     pub position: [f32; 3],
     /// Zero.
     pub padding: f32,

@@ -5,7 +5,7 @@ use glam::Vec3;
 /// A half line, or a segment where the caller bounds its parameter.
 #[derive(Clone, Copy, Debug)]
 pub struct Ray {
-    /// Start [m].
+    /// Start \[m\].
     pub origin: Vec3,
     /// Direction; parameters are in units of its length, which need not be one.
     pub direction: Vec3,

@@ -20,11 +20,11 @@ pub struct Sum {
     pub diffuse: Part,
     /// The specular part; zero without glossy senders.
     pub specular: Part,
-    /// Flux reflected by the Lambert part [W].
+    /// Flux reflected by the Lambert part \[W\].
     pub power: Vec3,
-    /// Arriving flux times `F0` [W].
+    /// Arriving flux times `F0` \[W\].
     pub f0: Vec3,
-    /// Arriving flux times `F90` [W].
+    /// Arriving flux times `F90` \[W\].
     pub f90: Vec3,
     /// Weighted dielectric reflectances of the Lambert part, at normal and grazing incidence.
     pub dielectric: [f32; 2],
@@ -39,15 +39,15 @@ pub struct Sum {
 /// Where one part of a cluster's light starts, and which way its surfaces face.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Part {
-    /// Sum of weights [W].
+    /// Sum of weights \[W\].
     pub weight: f32,
-    /// Positions [m].
+    /// Positions \[m\].
     pub position: Scatter,
     /// Unit normals.
     pub normal: Moments,
-    /// Sum of `weight · (normal − its mean)·(position − its mean)` [W m].
+    /// Sum of `weight · (normal − its mean)·(position − its mean)` \[W m\].
     pub bulge: f32,
-    /// Weighted texel area [W m²].
+    /// Weighted texel area \[W m²\].
     pub area: f32,
 }
 
@@ -206,7 +206,7 @@ fn sharpness_of(mean: vmf::MeanLength, fit: SharpnessFit) -> f32 {
     }
 }
 
-/// Extent of a part: variance along one axis in its surface [m²], and covariance, xx yy zz xy xz yz.
+/// Extent of a part: variance along one axis in its surface \[m²\], and covariance, xx yy zz xy xz yz.
 ///
 /// Both hold the extent of the texels themselves, squares of which each has a twelfth of its area along either side.
 fn extent_of(part: &Part, axis: Vec3, convention: Variance) -> (f32, [f32; 6]) {
@@ -227,7 +227,7 @@ fn extent_of(part: &Part, axis: Vec3, convention: Variance) -> (f32, [f32; 6]) {
     )
 }
 
-/// Height above the mean position, along the mean normal, at which a point lies in the surfaces' planes in the mean [m].
+/// Height above the mean position, along the mean normal, at which a point lies in the surfaces' planes in the mean \[m\].
 ///
 /// `E[n·(x − y)] = r ν·(x − μ) − E[δn·δy]`, so the planes' height is the covariance of normal and position over `r`.
 /// Bounded by the cluster's size, for clusters that face all ways round.
@@ -356,7 +356,7 @@ fn lights_sg(sum: &Sum, map: &MapRecord, plan: &ClusterPlan) -> (DiffuseVsgl, Sp
     (diffuse, specular)
 }
 
-/// Flux reflected by the specular part [W]: the colour of `F0`, or of `F90` where that is black, with the luminance that
+/// Flux reflected by the specular part \[W\]: the colour of `F0`, or of `F90` where that is black, with the luminance that
 /// is the weight of the part.
 fn specular_power(sum: &Sum) -> Vec3 {
     let color = if luminance(sum.f0) > 0.0 {

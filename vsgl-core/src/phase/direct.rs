@@ -30,7 +30,7 @@ pub fn incoming(light: &Light, position: Vec3) -> Incoming {
     }
 }
 
-/// Radiance to the eye from one light [W/(m² sr)], with a shadow ray where it would shine.
+/// Radiance to the eye from one light \[W/(m² sr)\], with a shadow ray where it would shine.
 ///
 /// `facing` is the geometric normal on the side of the eye.
 pub fn radiance(

@@ -30,7 +30,7 @@ pub fn ray(view: &View, x: u32, y: u32) -> Ray {
 pub struct Sample {
     /// Id of the triangle, or [`NO_TRIANGLE`].
     pub triangle: u32,
-    /// Depth along the view axis [m].
+    /// Depth along the view axis \[m\].
     pub depth: f32,
     /// The surface; meaningless where nothing was hit.
     pub surface: Surface,

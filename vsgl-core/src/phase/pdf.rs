@@ -3,7 +3,7 @@
 use crate::data::{Pdf, Rsm};
 use crate::settings::PdfMethod;
 
-/// Weight of one texel before normalisation [W].
+/// Weight of one texel before normalisation \[W\].
 pub fn weight(method: PdfMethod, rsm: &Rsm, texel: usize) -> f32 {
     match method {
         PdfMethod::Flux => {
@@ -68,14 +68,14 @@ pub fn top_level(size: u32) -> u32 {
 }
 
 impl Pdf {
-    /// Weight of a texel of a level [W].
+    /// Weight of a texel of a level \[W\].
     pub fn at(&self, map: u32, level: u32, x: u32, y: u32) -> f32 {
         let side = (self.size >> level) as usize;
         let index = (map as usize * side + y as usize) * side + x as usize;
         self.weight[level_start(self.size, self.maps, level) + index]
     }
 
-    /// Weight of a whole map [W].
+    /// Weight of a whole map \[W\].
     pub fn total(&self, map: u32) -> f32 {
         self.at(map, top_level(self.size), 0, 0)
     }

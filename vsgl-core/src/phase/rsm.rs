@@ -38,7 +38,7 @@ pub fn map(light: &Light, size: u32) -> MapRecord {
     }
 }
 
-/// Ray through a texel, and the flux that leaves the light through it [W]. The direction has length 1 along the axis.
+/// Ray through a texel, and the flux that leaves the light through it \[W\]. The direction has length 1 along the axis.
 pub fn ray(map: &MapRecord, size: u32, x: u32, y: u32) -> (Ray, Vec3) {
     let side = 2.0 * map.tan_half_fov / size as f32;
     let across = (x as f32 + 0.5) * side - map.tan_half_fov;
@@ -57,15 +57,15 @@ pub fn ray(map: &MapRecord, size: u32, x: u32, y: u32) -> (Ray, Vec3) {
 pub struct Texel {
     /// Id of the triangle, or [`NO_TRIANGLE`].
     pub triangle: u32,
-    /// xyz: position [m]; w: area of the surface that the texel covers [m²].
+    /// xyz: position \[m\]; w: area of the surface that the texel covers \[m²\].
     pub position: [f32; 4],
     /// xyz: unit shading normal, turned to the light; w: dielectric reflectance at grazing incidence.
     pub normal: [f32; 4],
-    /// rgb: arriving flux times Lambert albedo [W]; w: dielectric reflectance at normal incidence.
+    /// rgb: arriving flux times Lambert albedo \[W\]; w: dielectric reflectance at normal incidence.
     pub diffuse: [f32; 4],
-    /// rgb: arriving flux times `F0` [W]; w: `alpha`.
+    /// rgb: arriving flux times `F0` \[W\]; w: `alpha`.
     pub specular: [f32; 4],
-    /// rgb: arriving flux times `F90` [W]; w: luminance of the flux that the specular part reflects [W].
+    /// rgb: arriving flux times `F90` \[W\]; w: luminance of the flux that the specular part reflects \[W\].
     pub grazing: [f32; 4],
 }
 
@@ -144,7 +144,7 @@ impl Rsm {
         &self.map[texel / (self.size as usize * self.size as usize)]
     }
 
-    /// Luminances of the flux that a texel reflects by its Lambert and by its specular part [W].
+    /// Luminances of the flux that a texel reflects by its Lambert and by its specular part \[W\].
     pub fn weights(&self, texel: usize) -> (f32, f32) {
         let d = self.diffuse[texel];
         let specular = self.grazing.get(texel).map_or(0.0, |g| g[3]);

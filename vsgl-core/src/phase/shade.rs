@@ -13,7 +13,7 @@ use crate::sg::lobe::SHARPNESS_MAX;
 use crate::sg::{asg, cosine, lobe, vmf};
 use glam::Vec3;
 
-/// Least positional variance [m²]: keeps its inverse finite.
+/// Least positional variance \[m²\]: keeps its inverse finite.
 const VARIANCE_MIN: f32 = 1e-30;
 
 /// A lobe of light as it arrives at a receiver.
@@ -26,14 +26,14 @@ pub struct Incoming {
     /// Its sharpness towards the receiver's normal, which is what the receiver's horizon sees: a flat cluster has less
     /// extent along its own normal than across.
     pub horizon: f32,
-    /// Irradiance that it brings to a surface that faces it [W/m²].
+    /// Irradiance that it brings to a surface that faces it \[W/m²\].
     pub strength: Vec3,
 }
 
 /// A receiver, without its colours: they are factors of the sums over all lights.
 #[derive(Clone, Copy, Debug)]
 pub struct Receiver {
-    /// Position [m].
+    /// Position \[m\].
     pub position: Vec3,
     /// Unit normal, turned to the eye.
     pub normal: Vec3,
@@ -55,7 +55,7 @@ struct Path {
     /// Sharpness of the cluster's extent as seen from the receiver.
     sharpness: f32,
     /// `A(sharpness)/(2π variance)`: what a radiant intensity is multiplied by to give the irradiance; tends to one
-    /// over the squared distance and stays finite inside the cluster [1/m²].
+    /// over the squared distance and stays finite inside the cluster \[1/m²\].
     spread: f32,
 }
 
@@ -215,23 +215,23 @@ pub fn incoming_sg(
 /// A virtual point light: one texel of a reflective shadow map.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct PointSender {
-    /// Position [m].
+    /// Position \[m\].
     pub position: Vec3,
-    /// Variance of the texel's extent along one axis [m²].
+    /// Variance of the texel's extent along one axis \[m²\].
     pub variance: f32,
     /// Unit normal, turned to the light.
     pub normal: Vec3,
     /// Unit direction to the light.
     pub light: Vec3,
-    /// Flux reflected by the Lambert part [W].
+    /// Flux reflected by the Lambert part \[W\].
     pub diffuse: Vec3,
     /// Dielectric reflectance of the Lambert part at normal incidence.
     pub dielectric_f0: f32,
     /// Dielectric reflectance of the Lambert part at grazing incidence.
     pub dielectric_f90: f32,
-    /// Arriving flux times `F0` [W].
+    /// Arriving flux times `F0` \[W\].
     pub f0: Vec3,
-    /// Arriving flux times `F90` [W].
+    /// Arriving flux times `F90` \[W\].
     pub f90: Vec3,
     /// GGX roughness.
     pub alpha: f32,

@@ -12,7 +12,7 @@ pub const ALPHA_MIN: f32 = 1e-3;
 /// A point of a surface with its reflectance, seen from one side.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Surface {
-    /// Position [m].
+    /// Position \[m\].
     pub position: Vec3,
     /// Unit shading normal, turned to the viewer.
     pub normal: Vec3,
@@ -44,7 +44,7 @@ pub fn geometric_normal(scene: &SceneData, triangle: u32, towards: Vec3) -> Vec3
     }
 }
 
-/// Distance by which a ray's origin is lifted off a surface at `position` [m]: some hundred roundings of a coordinate.
+/// Distance by which a ray's origin is lifted off a surface at `position` \[m\]: some hundred roundings of a coordinate.
 #[inline(always)]
 pub fn lift(least: f32, position: Vec3) -> f32 {
     let p = position.abs();

@@ -5,7 +5,7 @@ use glam::Vec3;
 /// A pinhole camera with square pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
-    /// Eye relative to the scene's origin [m].
+    /// Eye relative to the scene's origin \[m\].
     pub eye: Vec3,
     /// Unit direction of view.
     pub forward: Vec3,
@@ -18,7 +18,7 @@ pub struct Camera {
 }
 
 impl Camera {
-    /// A camera at `eye` that looks at `target`; `fov` is the full vertical field of view [rad], 0 < fov < π.
+    /// A camera at `eye` that looks at `target`; `fov` is the full vertical field of view \[rad\], 0 < fov < π.
     ///
     /// The picture's up is the world's +y, or +z where the view is vertical. Equal points look along -z.
     pub fn look_at(eye: Vec3, target: Vec3, fov: f32) -> Self {

@@ -18,7 +18,7 @@ pub struct SceneFacts {
     pub glossy_receivers: bool,
     /// Some material has a texture.
     pub textures: bool,
-    /// Smallest box around all vertices [m], relative to the scene's origin.
+    /// Smallest box around all vertices \[m\], relative to the scene's origin.
     pub bounds: (Vec3, Vec3),
 }
 

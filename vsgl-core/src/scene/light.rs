@@ -13,20 +13,20 @@ pub enum Light {
 /// A point light that shines into a cone, with the angular falloff of `KHR_lights_punctual`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SpotLight {
-    /// Position relative to the scene's origin [m].
+    /// Position relative to the scene's origin \[m\].
     pub position: Vec3,
     /// Unit direction of the cone's axis, away from the light.
     pub axis: Vec3,
-    /// Radiant intensity on the axis [W/sr].
+    /// Radiant intensity on the axis \[W/sr\].
     pub intensity: [f32; 3],
-    /// Half angle up to which the intensity is full [rad].
+    /// Half angle up to which the intensity is full \[rad\].
     pub inner: f32,
-    /// Half angle beyond which it is zero [rad], at most [`SpotLight::OUTER_MAX`]. Equal to `inner`: a hard edge.
+    /// Half angle beyond which it is zero \[rad\], at most [`SpotLight::OUTER_MAX`]. Equal to `inner`: a hard edge.
     pub outer: f32,
 }
 
 impl SpotLight {
-    /// Largest outer half angle [rad]: one perspective map holds the whole cone. 80 degrees.
+    /// Largest outer half angle \[rad\]: one perspective map holds the whole cone. 80 degrees.
     pub const OUTER_MAX: f32 = 80.0 * std::f32::consts::PI / 180.0;
 
     /// Share of the on-axis intensity in a direction at `cosine` to the axis, 0..=1.

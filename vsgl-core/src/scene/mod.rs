@@ -24,7 +24,7 @@ use glam::{DVec3, Vec2, Vec3};
 pub struct Scene {
     /// A name for reports: file name or sample name.
     pub name: String,
-    /// World position of the local origin [m]: the centre of the bounds. Everything else is relative to it.
+    /// World position of the local origin \[m\]: the centre of the bounds. Everything else is relative to it.
     pub origin: DVec3,
     /// All triangles.
     pub mesh: Mesh,
@@ -46,7 +46,7 @@ impl Scene {
         (world - self.origin).as_vec3()
     }
 
-    /// Smallest box around all vertices, as (least, greatest) corner [m]; zero without triangles.
+    /// Smallest box around all vertices, as (least, greatest) corner \[m\]; zero without triangles.
     pub fn bounds(&self) -> (Vec3, Vec3) {
         let mut corners = self.mesh.positions.iter();
         let Some(&first) = corners.next() else {
@@ -61,7 +61,7 @@ impl Scene {
 /// `positions`, `normals` and `texcoords` run side by side; so do `triangles` and `material`.
 #[derive(Clone, Debug, Default)]
 pub struct Mesh {
-    /// Vertex positions relative to [`Scene::origin`] [m].
+    /// Vertex positions relative to [`Scene::origin`] \[m\].
     pub positions: Vec<Vec3>,
     /// Unit shading normals, one a vertex.
     pub normals: Vec<Vec3>,

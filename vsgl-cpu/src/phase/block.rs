@@ -3,6 +3,11 @@
 //! The functions here hold loops over lanes and nothing else, so that the compiler turns each text into vector
 //! instructions of the machine at hand, with the bits of the scalar text.
 
+#![expect(
+    clippy::needless_range_loop,
+    reason = "one index runs over several arrays side by side"
+)]
+
 use glam::Vec3;
 use vsgl_core::data::{DiffuseVsgl, SpecularVsgl};
 use vsgl_core::phase::shade::{self, Incoming, PointSender, Receiver};
@@ -135,11 +140,11 @@ impl Arriving {
 /// Sums over lights at sixteen receivers, without the receivers' colours.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Sums {
-    /// For the Lambert part: multiply by albedo over π [W/m²].
+    /// For the Lambert part: multiply by albedo over π \[W/m²\].
     pub diffuse: Vec3Lanes,
-    /// For the specular part: multiply by `F0` [W/(m² sr)].
+    /// For the specular part: multiply by `F0` \[W/(m² sr)\].
     pub near: Vec3Lanes,
-    /// For the specular part: multiply by `F90` [W/(m² sr)].
+    /// For the specular part: multiply by `F90` \[W/(m² sr)\].
     pub grazing: Vec3Lanes,
 }
 

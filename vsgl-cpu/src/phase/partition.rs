@@ -150,7 +150,7 @@ fn root(rsm: &Rsm, map: u32) -> Option<Node> {
     ))
 }
 
-/// Weighted mean of the positions of a map, and the root of their variance [m].
+/// Weighted mean of the positions of a map, and the root of their variance \[m\].
 fn extent(rsm: &Rsm, texel: &[u32], weight: &[f32]) -> ([f32; 3], f32) {
     fn merge(rsm: &Rsm, texel: &[u32], weight: &[f32]) -> (f32, Moments) {
         if let ([texel], [weight]) = (texel, weight) {

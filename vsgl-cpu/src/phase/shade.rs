@@ -6,7 +6,7 @@ use glam::Vec3;
 use multiversion::multiversion;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use vsgl_core::backend::Senders;
+use vsgl_core::backend::{Senders, ShadeInputs};
 use vsgl_core::data::{GBuffer, NO_TRIANGLE, Radiance, Rsm, SceneData, Target, Vsgls};
 use vsgl_core::geom::any_hit_block;
 use vsgl_core::math::vec::normalize;
@@ -14,7 +14,7 @@ use vsgl_core::phase::direct;
 use vsgl_core::phase::shade::{PointSender, Receiver};
 use vsgl_core::phase::surface::{geometric_normal, lift};
 use vsgl_core::plan::ShadePlan;
-use vsgl_core::render::{Observer, Phase, View};
+use vsgl_core::render::{Observer, Phase};
 use vsgl_core::scene::Light;
 use vsgl_core::settings::OcclusionMethod;
 use vsgl_core::{Error, Result};
@@ -23,14 +23,17 @@ use vsgl_core::{Error, Result};
 const BLOCKS_A_REPORT: usize = 64;
 
 pub(crate) fn run(
-    scene: &SceneData,
-    gbuffer: &GBuffer,
-    view: &View,
-    lights: &[Light],
-    senders: &Senders<'_, CpuBackend>,
+    inputs: &ShadeInputs<'_, CpuBackend>,
     plan: &ShadePlan,
     observer: &dyn Observer,
 ) -> Result<Radiance> {
+    let ShadeInputs {
+        scene,
+        gbuffer,
+        view,
+        lights,
+        senders,
+    } = inputs;
     let points = if let Senders::Vpls(rsm) = senders {
         point_senders(rsm, plan)
     } else {
@@ -57,7 +60,7 @@ pub(crate) fn run(
         }
         let block = shader.block(index * LANES);
         let done = done.fetch_add(1, Ordering::Relaxed) + 1;
-        if done % BLOCKS_A_REPORT == 0 {
+        if done.is_multiple_of(BLOCKS_A_REPORT) {
             observer.advanced(Phase::Shade, done as f32 / blocks as f32);
         }
         Ok(block)

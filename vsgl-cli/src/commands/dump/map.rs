@@ -49,7 +49,7 @@ impl<'a> Map<'a> {
         self.index as usize * self.size * self.size
     }
 
-    /// Reflected flux of each texel [W]: Lambert and specular part.
+    /// Reflected flux of each texel \[W\]: Lambert and specular part.
     pub(super) fn flux(&self) -> Vec<[f32; 3]> {
         let specular = |i: usize| self.rsm.specular.get(i).copied().unwrap_or_default();
         let sum = |i: usize| {

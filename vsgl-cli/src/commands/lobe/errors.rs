@@ -144,7 +144,7 @@ impl Errors {
         self.sorted.iter().sum::<f64>() / self.count().max(1) as f64
     }
 
-    /// The largest error in each of [`RANGES`].
+    /// The largest error in each of `RANGES`.
     pub fn ranges(&self) -> [Option<f64>; RANGES.len()] {
         self.ranges
     }

@@ -22,7 +22,7 @@ pub(super) struct Geometry {
     pub(super) images: Vec<usize>,
 }
 
-/// Smallest half extent that is accepted [m], for the same reason as [`LARGEST`].
+/// Smallest half extent that is accepted \[m\], for the same reason as [`LARGEST`].
 const SMALLEST: f64 = 1e-9;
 
 /// Reads every mesh that a node shows, once, and places its instances.

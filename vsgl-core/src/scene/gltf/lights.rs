@@ -12,7 +12,7 @@ use std::f32::consts::FRAC_PI_2;
 
 /// Spots that the nodes hold. Other lights are left out with a warning.
 ///
-/// The intensity [cd] is taken for [W/sr] as it stands.
+/// The intensity [cd] is taken for \[W/sr\] as it stands.
 pub(super) fn collect(
     document: &Document,
     placed: &[Placed<'_>],

@@ -6,7 +6,7 @@ use super::warnings::Warnings;
 use glam::{DMat4, DQuat, DVec3, DVec4, Vec3};
 use gltf::json::{Node, Value};
 
-/// Largest distance from the scene's origin that is accepted [m]: with more, squares of squares leave the range of f32.
+/// Largest distance from the scene's origin that is accepted \[m\]: with more, squares of squares leave the range of f32.
 pub(super) const LARGEST: f64 = 1e9;
 
 /// A node with its transform to the world.

@@ -26,10 +26,10 @@ pub(super) struct Walls {
 
 /// The shape of [`Builder::pipe`].
 pub(super) struct Pipe {
-    /// Radii [m].
+    /// Radii \[m\].
     pub(super) inner: f32,
     pub(super) outer: f32,
-    /// [m]
+    /// \[m\]
     pub(super) height: f32,
     /// Material inside.
     pub(super) lining: u32,
@@ -41,7 +41,7 @@ pub(super) struct Pipe {
 pub(super) struct Spot {
     pub(super) position: Vec3,
     pub(super) target: Vec3,
-    /// On the axis [W/sr].
+    /// On the axis \[W/sr\].
     pub(super) intensity: [f32; 3],
     /// Half angles of the cone [degrees].
     pub(super) inner: f32,
@@ -223,9 +223,9 @@ impl Builder {
 
 /// A point of a surface of revolution.
 struct Profile {
-    /// Distance from the axis [m].
+    /// Distance from the axis \[m\].
     radius: f64,
-    /// Height above the foot [m].
+    /// Height above the foot \[m\].
     height: f64,
     /// Unit normal, away from the axis and upwards.
     normal: [f64; 2],
