@@ -103,6 +103,7 @@ group! { glossy:
     asg_2016 = |x, y| warp::glossy_asg_2016(view(y), Vec3::Z, 0.3, LIGHT, x);
     filtered_2024 = |x, y| GlossyView::new(view(y), Vec3::Z, 0.3).filtered_2024(LIGHT, x);
     masked = |x, y| GlossyView::new(view(y), Vec3::Z, 0.3).masked(LIGHT, x, x);
+    blended = |x, y| GlossyView::new(view(y), Vec3::Z, 0.3).blended(LIGHT, x, x);
     masked_anisotropic = |x, y| FilteredView::reflection(view(y), 0.3, 0.1).masked(LIGHT, x, x);
     diffuse_and_glossy = |x, y| {
         let mean = cosine::mean_clamped_cosine(x * 0.9, y);

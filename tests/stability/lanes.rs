@@ -66,6 +66,10 @@ over_lanes! {
     sharpness_exact = |x, y| vmf::sharpness_exact(vmf::mean(x)) * y;
     product = |x, y| lobe::product(Vec3::new(0.6, 0.0, 0.8), x, Vec3::new(0.0, 0.6, -0.8), y.abs() * 10.0).log_amplitude;
     albedo = |x, y| ggx_albedo(y, x).b;
+    glossy_blend = |x, y| {
+        let view = Vec3::new((1.0 - y * y).max(0.0).sqrt(), 0.0, y.abs());
+        GlossyView::new(view, Vec3::Z, 0.2).blended(Vec3::new(-0.6, 0.0, 0.8), x, x)
+    };
     glossy = |x, y| {
         let view = Vec3::new((1.0 - y * y).max(0.0).sqrt(), 0.0, y.abs());
         GlossyView::new(view, Vec3::Z, 0.2).masked(Vec3::new(-0.6, 0.0, 0.8), x, x)

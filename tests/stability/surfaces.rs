@@ -22,10 +22,10 @@ proptest! {
     fn glossy_lighting_is_finite((view, axis) in pair(), normal in direction(), a in alpha(), b in alpha(),
                                  k in sharpness(), horizon in sharpness(), index in 0.3f32..3.0) {
         let world = GlossyView::new(view, normal, a);
-        prop_assert!(fit(world.density(axis, k)));
+        prop_assert!(fit(world.density(axis, k)) && fit(world.density_2024(axis, k)));
         prop_assert!((0.0..=1.000_01).contains(&world.share(axis, k)));
         prop_assert!((0.0..=2.000_01).contains(&world.masked_share(axis, k)));
-        prop_assert!(fit(world.masked(axis, k, horizon)) && fit(world.filtered_2024(axis, k)));
+        prop_assert!(fit(world.blended(axis, k, horizon)) && fit(world.masked(axis, k, horizon)) && fit(world.filtered_2024(axis, k)));
         let local = FilteredView::reflection(view, a, b);
         prop_assert!(fit(local.reflected_density(axis, k)) && fit(local.masked(axis, k, horizon)));
         prop_assert!(fit(local.filtered_2024(axis, k)));

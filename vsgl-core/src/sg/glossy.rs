@@ -24,6 +24,7 @@ use glam::Vec3;
 
 use super::lobe::{self, SHARPNESS_MAX};
 use super::{cosine, hemisphere};
+use crate::brdf::albedo::ggx_albedo;
 use crate::math::elementary::exp;
 use crate::math::vec::reflect;
 
@@ -49,8 +50,11 @@ pub struct GlossyView {
     /// `√(α² + (1 − α²) cos²)`.
     view_reach: f32,
     /// `α²` and `1 − α²`.
-    alpha2: f32,
-    rest: f32,
+    pub(super) alpha2: f32,
+    pub(super) rest: f32,
+    /// The mirrored view, and the directional albedo for Fresnel factor 1.
+    pub(super) mirrored: Vec3,
+    pub(super) albedo: f32,
     /// Lobe of reflected directions of the unfiltered surface, a wide one: axis times sharpness.
     reflected: Vec3,
     /// Coefficients of the polynomials in the sharpness, see [`GlossyView::density`].
@@ -61,13 +65,15 @@ pub struct GlossyView {
 
 /// See [`GlossyView::blur`].
 #[derive(Clone, Copy, Debug)]
-struct Blur {
+pub(super) struct Blur {
     /// Density of the wider GGX \[1/sr\].
-    density: f32,
+    pub(super) density: f32,
     /// Root of the determinant of the blurred roughness matrix: its mean `alpha²`.
-    root: f32,
+    pub(super) root: f32,
     /// One plus the squared slope of the half vector in units of the blurred roughness.
-    slope: f32,
+    pub(super) slope: f32,
+    /// Share of the blurred width that is the surface's own: 0 for a wide light, 1 for a sharp one.
+    pub(super) own: f32,
 }
 
 impl GlossyView {
@@ -83,6 +89,8 @@ impl GlossyView {
         let cross = normal.cross(view);
         let view_sine2 = cross.dot(cross);
         let both = 1.0 + cosine2;
+        let mirrored = reflect(view, normal);
+        let albedo = ggx_albedo(view_cosine, alpha);
         Self {
             view,
             normal,
@@ -92,7 +100,9 @@ impl GlossyView {
             view_reach: (alpha2 * view_sine2 + cosine2).sqrt(),
             alpha2,
             rest,
-            reflected: reflect(view, normal) * (0.5 * rest / alpha2),
+            mirrored,
+            albedo: albedo.a + albedo.b,
+            reflected: mirrored * (0.5 * rest / alpha2),
             det: [
                 0.25 * rest * rest,
                 0.5 * alpha2 * rest * both,
@@ -119,7 +129,7 @@ impl GlossyView {
 
     /// What the densities share: the blurred roughness and where the half vector of the light's axis lies in it.
     #[inline(always)]
-    fn blur(&self, axis: Vec3, sharpness: f32) -> Blur {
+    pub(super) fn blur(&self, axis: Vec3, sharpness: f32) -> Blur {
         let k = sharpness.min(SHARPNESS_MAX);
         let half = self.view + axis;
         let length2 = half.dot(half);
@@ -148,6 +158,7 @@ impl GlossyView {
             density,
             root,
             slope: form / level,
+            own: (self.det[2] * k * k / det_above).sqrt(),
         }
     }
 

@@ -8,6 +8,7 @@ pub mod asg;
 pub mod cosine;
 pub mod filtering;
 pub mod glossy;
+pub mod glossy_blend;
 pub mod hemisphere;
 pub mod lobe;
 pub mod polar;

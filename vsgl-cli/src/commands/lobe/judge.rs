@@ -11,7 +11,7 @@ use vsgl_core::brdf::{beckmann, ggx_local};
 use vsgl_core::glam::Vec3;
 use vsgl_core::math::elementary as el;
 use vsgl_core::sg::asg::AsgLobe;
-use vsgl_core::sg::{cosine, filtering, glossy, hemisphere, lobe, vmf, warp};
+use vsgl_core::sg::{cosine, filtering, glossy, glossy_blend, hemisphere, lobe, vmf, warp};
 
 /// A comparison of one row: the value, the exact one, and the scale for errors relative to a peak.
 struct Pair {
@@ -459,7 +459,7 @@ fn filtered_lobe(j: &mut Judge<'_>) {
         |r| pair(density(r), r.exact("density")),
     );
     j.add(
-        "sg::glossy::GlossyView::density",
+        "sg::glossy::GlossyView::density_2024",
         Relative,
         P99(1e-6),
         |r| {
@@ -467,7 +467,7 @@ fn filtered_lobe(j: &mut Judge<'_>) {
             let glossy = glossy::GlossyView::new(view(r), Vec3::Z, r.argument("alpha_x"));
             isotropic.then(|| {
                 pair(
-                    glossy.density(light(r), r.argument("sharpness")),
+                    glossy.density_2024(light(r), r.argument("sharpness")),
                     r.exact("density"),
                 )
             })?
@@ -531,7 +531,8 @@ fn glossy_integral(j: &mut Judge<'_>) {
     };
     let isotropic = |r: &Row<'_>| r.exact("alpha_x") == r.exact("alpha_y");
     type Glossy = fn(Vec3, Vec3, f32, Vec3, f32) -> f32;
-    let forms: [(&str, Glossy, f64); 5] = [
+    let forms: [(&str, Glossy, f64); 6] = [
+        ("sg::glossy_blend::blended", glossy_blend::blended, 0.1),
         ("sg::glossy::masked", glossy::masked, 0.2),
         ("sg::glossy::filtered_2024", glossy::filtered_2024, 0.2),
         ("sg::warp::glossy_asg_2016", warp::glossy_asg_2016, 0.25),
