@@ -25,7 +25,12 @@ impl Set {
         let scene = samples::by_name(sample).expect("a sample");
         let data = backend.upload(SceneData::new(&scene)).expect("host memory");
         let view = View::new(scene.cameras[0].1, width, height).expect("a size that fits");
-        Self { backend, scene, data, view }
+        Self {
+            backend,
+            scene,
+            data,
+            view,
+        }
     }
 
     fn plan(&self, settings: &Settings) -> Plan {
@@ -39,14 +44,30 @@ fn clusters(c: &mut Criterion) {
     let mut group = c.benchmark_group("cluster");
     group.sample_size(10);
     for clustering in [Clustering::Partition, Clustering::Filtered] {
-        let plan = set.plan(&Settings { clustering, ..Settings::default() });
-        let bounce = plan.bounce.as_ref().expect("a lit scene");
-        let rsm = set.backend.rsm(&set.data, &set.scene.lights, &bounce.rsm).expect("cpu");
-        let pdf = bounce.pdf.as_ref().map(|p| set.backend.pdf(&rsm, p).expect("cpu"));
-        let cluster = bounce.cluster.as_ref().expect("method vsgl");
-        group.bench_function(BenchmarkId::new(clustering.word(), "512² texels, 1024 lights"), |b| {
-            b.iter(|| set.backend.cluster(&set.data, black_box(&rsm), pdf.as_ref(), cluster).expect("cpu"));
+        let plan = set.plan(&Settings {
+            clustering,
+            ..Settings::default()
         });
+        let bounce = plan.bounce.as_ref().expect("a lit scene");
+        let rsm = set
+            .backend
+            .rsm(&set.data, &set.scene.lights, &bounce.rsm)
+            .expect("cpu");
+        let pdf = bounce
+            .pdf
+            .as_ref()
+            .map(|p| set.backend.pdf(&rsm, p).expect("cpu"));
+        let cluster = bounce.cluster.as_ref().expect("method vsgl");
+        group.bench_function(
+            BenchmarkId::new(clustering.word(), "512² texels, 1024 lights"),
+            |b| {
+                b.iter(|| {
+                    set.backend
+                        .cluster(&set.data, black_box(&rsm), pdf.as_ref(), cluster)
+                        .expect("cpu")
+                });
+            },
+        );
     }
     group.finish();
 }
@@ -59,11 +80,19 @@ fn maps(c: &mut Criterion) {
     group.sample_size(10);
     group.throughput(Throughput::Elements(512 * 512));
     group.bench_function("rsm 512²", |b| {
-        b.iter(|| set.backend.rsm(&set.data, black_box(&set.scene.lights), &bounce.rsm).expect("cpu"));
+        b.iter(|| {
+            set.backend
+                .rsm(&set.data, black_box(&set.scene.lights), &bounce.rsm)
+                .expect("cpu")
+        });
     });
     group.throughput(Throughput::Elements(320 * 180));
     group.bench_function("gbuffer 320x180", |b| {
-        b.iter(|| set.backend.gbuffer(&set.data, black_box(&set.view), &plan.gbuffer).expect("cpu"));
+        b.iter(|| {
+            set.backend
+                .gbuffer(&set.data, black_box(&set.view), &plan.gbuffer)
+                .expect("cpu")
+        });
     });
     group.finish();
 }
@@ -74,11 +103,28 @@ fn shading(c: &mut Criterion) {
     let mut group = c.benchmark_group("shade 160x90, 256 lights");
     group.sample_size(10);
     group.throughput(Throughput::Elements(160 * 90 * 256));
-    let unoccluded = Settings { lights: 256, occlusion: OcclusionMethod::None, ..Settings::default() };
+    let unoccluded = Settings {
+        lights: 256,
+        occlusion: OcclusionMethod::None,
+        ..Settings::default()
+    };
     let cases = [
         ("unoccluded", unoccluded.clone()),
-        ("rays", Settings { occlusion: OcclusionMethod::Rays, ..unoccluded.clone() }),
-        ("paper-2016", Settings { lights: 256, occlusion: OcclusionMethod::None, ..Preset::Paper2016.settings() }),
+        (
+            "rays",
+            Settings {
+                occlusion: OcclusionMethod::Rays,
+                ..unoccluded.clone()
+            },
+        ),
+        (
+            "paper-2016",
+            Settings {
+                lights: 256,
+                occlusion: OcclusionMethod::None,
+                ..Preset::Paper2016.settings()
+            },
+        ),
     ];
     for (name, settings) in cases {
         shade(&mut group, &set, name, &set.plan(&settings));
@@ -88,9 +134,22 @@ fn shading(c: &mut Criterion) {
     for material in &mut lambert.scene.materials {
         (material.metallic, material.specular) = (0.0, 0.0);
     }
-    lambert.data = lambert.backend.upload(SceneData::new(&lambert.scene)).expect("host memory");
-    shade(&mut group, &lambert, "all Lambert, pruned", &lambert.plan(&unoccluded));
-    shade(&mut group, &lambert, "all Lambert, not pruned", &set.plan(&unoccluded));
+    lambert.data = lambert
+        .backend
+        .upload(SceneData::new(&lambert.scene))
+        .expect("host memory");
+    shade(
+        &mut group,
+        &lambert,
+        "all Lambert, pruned",
+        &lambert.plan(&unoccluded),
+    );
+    shade(
+        &mut group,
+        &lambert,
+        "all Lambert, not pruned",
+        &set.plan(&unoccluded),
+    );
     group.finish();
 }
 
@@ -98,11 +157,23 @@ type Group<'a> = criterion::BenchmarkGroup<'a, criterion::measurement::WallTime>
 
 fn shade(group: &mut Group<'_>, set: &Set, name: &str, plan: &Plan) {
     let bounce = plan.bounce.as_ref().expect("a lit scene");
-    let rsm = set.backend.rsm(&set.data, &set.scene.lights, &bounce.rsm).expect("cpu");
-    let pdf = bounce.pdf.as_ref().map(|p| set.backend.pdf(&rsm, p).expect("cpu"));
+    let rsm = set
+        .backend
+        .rsm(&set.data, &set.scene.lights, &bounce.rsm)
+        .expect("cpu");
+    let pdf = bounce
+        .pdf
+        .as_ref()
+        .map(|p| set.backend.pdf(&rsm, p).expect("cpu"));
     let cluster = bounce.cluster.as_ref().expect("method vsgl");
-    let vsgls = set.backend.cluster(&set.data, &rsm, pdf.as_ref(), cluster).expect("cpu");
-    let gbuffer = set.backend.gbuffer(&set.data, &set.view, &plan.gbuffer).expect("cpu");
+    let vsgls = set
+        .backend
+        .cluster(&set.data, &rsm, pdf.as_ref(), cluster)
+        .expect("cpu");
+    let gbuffer = set
+        .backend
+        .gbuffer(&set.data, &set.view, &plan.gbuffer)
+        .expect("cpu");
     group.bench_function(name, |b| {
         b.iter(|| {
             let inputs = ShadeInputs {
@@ -112,7 +183,9 @@ fn shade(group: &mut Group<'_>, set: &Set, name: &str, plan: &Plan) {
                 lights: &set.scene.lights,
                 senders: Senders::Vsgls(&vsgls),
             };
-            set.backend.shade(black_box(&inputs), &plan.shade, &()).expect("cpu")
+            set.backend
+                .shade(black_box(&inputs), &plan.shade, &())
+                .expect("cpu")
         });
     });
 }
@@ -124,7 +197,17 @@ fn frames(c: &mut Criterion) {
         let set = Set::new(sample, 160, 90);
         let plan = set.plan(&Settings::default());
         group.bench_function(sample, |b| {
-            b.iter(|| render(&set.backend, &set.data, &set.scene.lights, &set.view, &plan, &()).expect("cpu"));
+            b.iter(|| {
+                render(
+                    &set.backend,
+                    &set.data,
+                    &set.scene.lights,
+                    &set.view,
+                    &plan,
+                    &(),
+                )
+                .expect("cpu")
+            });
         });
     }
     group.finish();

@@ -10,7 +10,7 @@ use crate::math::elementary::{exp, expm1_over_x};
 use crate::math::vec::normalize;
 use crate::sg::glossy::GlossyView;
 use crate::sg::lobe::SHARPNESS_MAX;
-use crate::sg::{asg, cosine, lobe, vmf};
+use crate::sg::{cosine, lobe, vmf, warp};
 use glam::Vec3;
 
 /// Least positional variance \[m²\]: keeps its inverse finite.
@@ -308,17 +308,14 @@ pub fn glossy_2024(incoming: &Incoming, surface: &GlossyView) -> f32 {
 /// Source: Tokuyoshi 2016, supplement, section C.2; Xu et al. 2013, "Anisotropic Spherical Gaussians".
 #[inline(always)]
 pub fn glossy_asg_2013(incoming: &Incoming, receiver: &Receiver) -> f32 {
-    let alpha2 = receiver.alpha * receiver.alpha;
-    let lobe = asg::reflection_lobe(receiver.view, receiver.normal, 1.0 / alpha2);
-    let integral = lobe.product_integral(incoming.axis, incoming.sharpness)
-        / lobe::integral(incoming.sharpness);
-    let (v, o) = (
-        receiver.view.dot(receiver.normal),
-        incoming.axis.dot(receiver.normal),
-    );
-    let rest =
-        ggx::visibility(v.max(0.0), o.max(0.0), receiver.alpha) / (std::f32::consts::PI * alpha2);
-    integral * rest * o.max(0.0)
+    let Receiver {
+        view,
+        normal,
+        alpha,
+        ..
+    } = *receiver;
+    let reflected = warp::glossy_asg_2015(view, normal, alpha, incoming.axis, incoming.sharpness);
+    reflected / lobe::integral(incoming.sharpness)
 }
 
 /// Factor of the specular part for a light of one direction: GGX as it is.
