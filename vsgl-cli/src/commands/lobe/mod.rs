@@ -1,7 +1,10 @@
 //! `vsgl lobe`: the mathematics by itself. Judges it against tables of exact values, and draws it.
 
 mod errors;
+mod exact;
+mod figures;
 mod judge;
+mod plot;
 mod report;
 mod table;
 
@@ -18,6 +21,14 @@ use crate::text;
 /// # Errors
 /// [`Failure::OverLimit`] if a function errs by more than its documentation states, and what reading and writing return.
 pub(super) fn run(args: &LobeArgs) -> Result<()> {
+    if let Some(folder) = &args.output {
+        let names = figures::draw(folder)?;
+        text::warn(&format!(
+            "{} plots in {}, each as .svg and .csv",
+            names.len(),
+            folder.display()
+        ));
+    }
     if let Some(folder) = &args.check {
         let judged = judge(folder)?;
         if judged.is_empty() {
