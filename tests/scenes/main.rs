@@ -7,15 +7,4 @@ mod conformance;
 mod corner;
 mod development;
 
-use std::path::{Path, PathBuf};
-
-/// The folder of this name among the assets, or none, with a word about it.
-fn assets(folder: &str, tests: &str) -> Option<PathBuf> {
-    let Some(root) = std::env::var_os("VSGL_ASSETS") else {
-        println!("skipped: {tests} (VSGL_ASSETS is not set)");
-        return None;
-    };
-    let path = Path::new(&root).join(folder);
-    assert!(path.is_dir(), "VSGL_ASSETS: no folder {}", path.display());
-    Some(path)
-}
+use vsgl_tests::assets::assets;

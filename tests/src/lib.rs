@@ -1,1 +1,7 @@
-//! Tests that need more than one crate.
+//! Tests that need more than one crate, and what they share.
+
+pub mod assets;
+pub mod gltf;
+pub mod measure;
+pub mod random;
+pub mod render;

@@ -1,0 +1,186 @@
+//! Flux from the lamp to the texels, and from the texels to the clusters.
+
+use std::f64::consts::TAU;
+use vsgl_core::data::{Rsm, Vsgls};
+use vsgl_core::glam::Vec3;
+use vsgl_core::phase::rsm;
+use vsgl_core::scene::{Light, SpotLight};
+use vsgl_tests::render::Shot;
+
+/// Flux through all texels of a spot of 1 W/sr, over the exact integral, minus one.
+fn flux_error(inner: f32, outer: f32, size: u32) -> f64 {
+    let spot = Light::Spot(SpotLight {
+        position: Vec3::new(1.0, 2.0, 3.0),
+        axis: Vec3::new(0.48, -0.6, 0.64),
+        intensity: [1.0; 3],
+        inner: inner.to_radians(),
+        outer: outer.to_radians(),
+    });
+    let map = rsm::map(&spot, size);
+    let texels = (0..size * size).map(|i| f64::from(rsm::ray(&map, size, i % size, i / size).1.x));
+    let [inner, outer] = [inner, outer].map(|a| f64::from(a).to_radians().cos());
+    // The falloff is t², t from 0 to 1 in the cosine: its mean over the rim is a third.
+    let exact = TAU * ((1.0 - inner) + (inner - outer) / 3.0);
+    texels.sum::<f64>() / exact - 1.0
+}
+
+const CONES: [(f32, f32); 6] = [
+    (5.0, 5.0),
+    (30.0, 30.0),
+    (60.0, 60.0),
+    (0.0, 20.0),
+    (20.0, 40.0),
+    (50.0, 60.0),
+];
+
+#[test]
+fn texels_hold_the_flux_that_the_spot_emits() {
+    for (inner, outer) in CONES {
+        for size in [16, 64, 256, 512] {
+            let error = flux_error(inner, outer, size);
+            println!("{inner} {outer} {size}: {error:.1e}");
+            let n = f64::from(size);
+            // A texel on a hard edge is in or out as a whole: about `π size` of `π/4 size²` texels are off by 0.29 of
+            // themselves (the deviation of a uniform number), independent of each other; three times their deviation.
+            // What is smooth has the midpoint rule's error of a texel's width squared.
+            let edge = if inner == outer {
+                3.0 * 0.29 * (4.0 / n) / (TAU / 2.0 * n).sqrt()
+            } else {
+                0.0
+            };
+            let width = 2.0 * f64::from(outer).to_radians().tan() / n;
+            let smooth = width * width + 4.0 / (n * n);
+            assert!(
+                error.abs() < edge + smooth,
+                "{inner} {outer} {size}: {error:.2e}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_closed_white_room_reflects_all_that_is_emitted() {
+    // Both sums run over the same texels: only the f32 products of flux and albedo differ.
+    let mut shot = Shot::sample("cornell").with("rsm=128 occlusion=none lights=1");
+    for material in &mut shot.scene.materials {
+        *material = vsgl_core::scene::Material::lambert("white", [1.0; 3]);
+    }
+    let frame = shot.size(8, 8).frame();
+    let map = frame.rsm.as_ref().expect("a bounce");
+    let emitted: f64 = (0..128 * 128u32)
+        .map(|i| f64::from(rsm::ray(&map.map[0], 128, i % 128, i / 128).1.y))
+        .sum();
+    let reflected: f64 = map.diffuse.iter().map(|d| f64::from(d[1])).sum();
+    assert!(
+        (reflected / emitted - 1.0).abs() < 1e-6,
+        "{reflected} of {emitted}"
+    );
+}
+
+/// Sums over texels and over clusters of the Lambert power, of `F0` and of `F90`, channel by channel.
+fn fluxes(map: &Rsm, lights: &Vsgls) -> Vec<(f64, f64)> {
+    let mut pairs = Vec::new();
+    for channel in 0..3 {
+        let texels =
+            |column: &[[f32; 4]]| column.iter().map(|v| f64::from(v[channel])).sum::<f64>();
+        let power = |f: fn(&Vsgls, usize) -> [f32; 3], count: usize| {
+            (0..count)
+                .map(|i| f64::from(f(lights, i)[channel]))
+                .sum::<f64>()
+        };
+        let pi = std::f64::consts::PI;
+        let (diffuse, specular) = (lights.diffuse.len(), lights.specular.len());
+        pairs.push((
+            texels(&map.diffuse),
+            pi * power(|v, i| v.diffuse[i].intensity, diffuse),
+        ));
+        pairs.push((
+            texels(&map.specular),
+            power(|v, i| v.specular[i].f0, specular),
+        ));
+        pairs.push((
+            texels(&map.grazing),
+            power(|v, i| v.specular[i].f90, specular),
+        ));
+    }
+    pairs
+}
+
+#[test]
+fn a_partition_keeps_all_flux() {
+    for name in [
+        "cornell",
+        "glossy-floor",
+        "columns",
+        "caustic-ring",
+        "roughness-row",
+        "many-lights:4",
+    ] {
+        for lights in ["1", "100", "1024"] {
+            let frame = Shot::sample(name)
+                .size(8, 8)
+                .with("rsm=64")
+                .with(&format!("lights={lights}"))
+                .frame();
+            let (map, lights) = (frame.rsm.expect("a bounce"), frame.vsgls.expect("clusters"));
+            for (texels, clusters) in fluxes(&map, &lights) {
+                // Every texel is added once, as a tree of at most 14 levels: 14 roundings of 6e-8.
+                assert!(
+                    (clusters - texels).abs() <= 1e-6 * texels,
+                    "{name}: {clusters} of {texels}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn a_partition_has_every_lit_texel_once() {
+    for lights in [1, 7, 300, 5000] {
+        let shot = Shot::sample("cornell")
+            .size(8, 8)
+            .with(&format!("lights={lights}"));
+        let frame = shot.frame();
+        let (map, vsgls) = (frame.rsm.expect("a bounce"), frame.vsgls.expect("clusters"));
+        assert!(vsgls.count <= lights);
+        let mut members = vec![0; vsgls.count as usize];
+        for (texel, &label) in vsgls.label.iter().enumerate() {
+            let (diffuse, specular) = map.weights(texel);
+            assert_eq!(
+                label == u32::MAX,
+                diffuse + specular <= 0.0,
+                "texel {texel}"
+            );
+            if label != u32::MAX {
+                members[label as usize] += 1;
+            }
+        }
+        assert!(members.iter().all(|&m| m > 0), "an empty cluster");
+        for (cluster, &texel) in vsgls.texel.iter().enumerate() {
+            assert_eq!(
+                vsgls.label[texel as usize] as usize, cluster,
+                "a target of another cluster"
+            );
+        }
+    }
+}
+
+#[test]
+fn filtered_kernels_keep_the_flux_in_the_mean() {
+    for name in ["cornell", "glossy-floor", "columns", "roughness-row"] {
+        let shot = Shot::sample(name)
+            .size(8, 8)
+            .with("rsm=128 clustering=filtered lights=512");
+        let frame = shot.frame();
+        let pairs = fluxes(
+            &frame.rsm.expect("a bounce"),
+            &frame.vsgls.expect("clusters"),
+        );
+        let sum = pairs.iter().fold((0.0, 0.0), |s, p| (s.0 + p.0, s.1 + p.1));
+        let error = sum.1 / sum.0 - 1.0;
+        println!("{name}: {:+.2} %", 100.0 * error);
+        // Kernels are drawn, and each is scaled to its share of the density, which is the luminance of both parts
+        // together; single colours and parts come out right in the mean only.
+        assert!(error.abs() < 0.05, "{name}: {error}");
+    }
+}

@@ -1,0 +1,7 @@
+//! What no renderer may break: energy is kept, and the limit of many lights is the exact sum.
+
+mod convergence;
+mod emission;
+mod energy;
+mod furnace;
+mod invariance;
