@@ -21,9 +21,14 @@ pub(super) fn above_horizon(sharpness: f64, cosine: f64, power: i32) -> f64 {
     let sum: f64 = (0..n)
         .map(|i| (i as f64 + 0.5) / n as f64)
         .map(|t| {
-            let (u, c) = (t * t * (3.0 - 2.0 * t) * 0.5 * PI).sin_cos();
+            let within = t * (1.0 - t);
+            let (u, c) = (t * t * t * (10.0 - t * (15.0 - 6.0 * t)) * 0.5 * PI).sin_cos();
             let x = k * s * c;
-            6.0 * t * (1.0 - t) * u.powi(power) * c * bessel_scaled(x) * (x + k * z * u - k).exp()
+            30.0 * (within * within)
+                * u.powi(power)
+                * c
+                * bessel_scaled(x)
+                * (x + k * z * u - k).exp()
         })
         .sum();
     TAU * sum * 0.5 * PI / n as f64
