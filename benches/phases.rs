@@ -4,8 +4,8 @@ use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_m
 use std::hint::black_box;
 use std::sync::Arc;
 use vsgl_core::backend::{Backend, Senders, ShadeInputs};
-use vsgl_core::data::SceneData;
-use vsgl_core::plan::Plan;
+use vsgl_core::data::{Pdf, Rsm, SceneData};
+use vsgl_core::plan::{BouncePlan, Plan};
 use vsgl_core::render::{View, render};
 use vsgl_core::scene::{Scene, SceneFacts, samples};
 use vsgl_core::settings::{Clustering, OcclusionMethod, Preset, Settings};
@@ -39,6 +39,17 @@ impl Set {
     }
 }
 
+/// The maps of the lights, and the density where the plan draws from one.
+fn light_side(set: &Set, bounce: &BouncePlan) -> (Arc<Rsm>, Option<Arc<Pdf>>) {
+    let rsm = set
+        .backend
+        .rsm(&set.data, &set.scene.lights, &bounce.rsm)
+        .expect("cpu");
+    let pdf = bounce.pdf.as_ref();
+    let pdf = pdf.map(|p| set.backend.pdf(&rsm, p).expect("cpu"));
+    (rsm, pdf)
+}
+
 fn clusters(c: &mut Criterion) {
     let set = Set::new("cornell", 64, 36);
     let mut group = c.benchmark_group("cluster");
@@ -49,14 +60,7 @@ fn clusters(c: &mut Criterion) {
             ..Settings::default()
         });
         let bounce = plan.bounce.as_ref().expect("a lit scene");
-        let rsm = set
-            .backend
-            .rsm(&set.data, &set.scene.lights, &bounce.rsm)
-            .expect("cpu");
-        let pdf = bounce
-            .pdf
-            .as_ref()
-            .map(|p| set.backend.pdf(&rsm, p).expect("cpu"));
+        let (rsm, pdf) = light_side(&set, bounce);
         let cluster = bounce.cluster.as_ref().expect("method vsgl");
         group.bench_function(
             BenchmarkId::new(clustering.word(), "512² texels, 1024 lights"),
@@ -157,14 +161,7 @@ type Group<'a> = criterion::BenchmarkGroup<'a, criterion::measurement::WallTime>
 
 fn shade(group: &mut Group<'_>, set: &Set, name: &str, plan: &Plan) {
     let bounce = plan.bounce.as_ref().expect("a lit scene");
-    let rsm = set
-        .backend
-        .rsm(&set.data, &set.scene.lights, &bounce.rsm)
-        .expect("cpu");
-    let pdf = bounce
-        .pdf
-        .as_ref()
-        .map(|p| set.backend.pdf(&rsm, p).expect("cpu"));
+    let (rsm, pdf) = light_side(set, bounce);
     let cluster = bounce.cluster.as_ref().expect("method vsgl");
     let vsgls = set
         .backend
