@@ -74,6 +74,7 @@ group! { lobes:
 group! { hemispherical:
     integral_2018 = |x, y| hemisphere::integral_2018(x, y);
     integral_2022 = |x, y| hemisphere::integral_2022(x, y);
+    integral = |x, y| hemisphere::integral(x, y);
     share_2022 = |x, y| hemisphere::share_2022(x, y);
 }
 
@@ -85,6 +86,7 @@ group! { clamped_cosine:
     lobes_2022 = |x, y| cosine::lobes_2022(x, y);
     interpolated_2024 = |x, y| cosine::interpolated_2024(x, y);
     interpolated_v13 = |x, y| cosine::interpolated_v13(x, y);
+    interpolated_v14 = |x, y| cosine::interpolated_v14(x, y);
     mean_clamped_cosine = |x, y| cosine::mean_clamped_cosine(x, y);
 }
 

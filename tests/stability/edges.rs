@@ -10,8 +10,16 @@ const ROUNDING: f32 = 1e-6;
 
 type OfCosine = fn(f32, f32) -> f32;
 
-const HEMISPHERES: [OfCosine; 2] = [hemisphere::integral_2018, hemisphere::integral_2022];
-const INTERPOLATED: [OfCosine; 2] = [clamped::interpolated_2024, clamped::interpolated_v13];
+const HEMISPHERES: [OfCosine; 3] = [
+    hemisphere::integral_2018,
+    hemisphere::integral_2022,
+    hemisphere::integral,
+];
+const INTERPOLATED: [OfCosine; 3] = [
+    clamped::interpolated_2024,
+    clamped::interpolated_v13,
+    clamped::interpolated_v14,
+];
 const SUPERSEDED: [OfCosine; 5] = [
     clamped::constant,
     clamped::sg_iwasaki_2012,

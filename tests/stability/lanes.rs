@@ -58,9 +58,11 @@ over_lanes! {
     sin_turns = |x, y| el::sin_cos_turns(x.min(10.0) * y).0;
     lobe_integral = |x, y| lobe::integral(x) * y;
     share_2022 = |x, y| hemisphere::share_2022(x, y);
+    share = |x, y| hemisphere::share(x, y);
     integral_2022 = |x, y| hemisphere::integral_2022(x, y);
     interpolated_2024 = |x, y| clamped::interpolated_2024(x, y);
     interpolated_v13 = |x, y| clamped::interpolated_v13(x, y);
+    interpolated_v14 = |x, y| clamped::interpolated_v14(x, y);
     mean_clamped_cosine = |x, y| clamped::mean_clamped_cosine(x, y);
     convolve = |x, y| vmf::convolve(x, y.abs() * 100.0);
     sharpness_exact = |x, y| vmf::sharpness_exact(vmf::mean(x)) * y;

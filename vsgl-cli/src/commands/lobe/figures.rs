@@ -10,7 +10,7 @@ use vsgl_core::sg::{cosine, glossy, glossy_blend, hemisphere, warp};
 type OfCosine = fn(f32, f32) -> f32;
 type Glossy = fn(Vec3, Vec3, f32, Vec3, f32) -> f32;
 
-const COSINES: [(&str, OfCosine); 7] = [
+const COSINES: [(&str, OfCosine); 8] = [
     ("constant", cosine::constant),
     ("SG Iwasaki 2012", cosine::sg_iwasaki_2012),
     ("SG product", cosine::sg_product),
@@ -18,11 +18,13 @@ const COSINES: [(&str, OfCosine); 7] = [
     ("2022", cosine::lobes_2022),
     ("2024", cosine::interpolated_2024),
     ("v13", cosine::interpolated_v13),
+    ("v14", cosine::interpolated_v14),
 ];
 
-const HEMISPHERES: [(&str, OfCosine); 2] = [
+const HEMISPHERES: [(&str, OfCosine); 3] = [
     ("2018", hemisphere::integral_2018),
     ("2022", hemisphere::integral_2022),
+    ("refitted", hemisphere::integral),
 ];
 
 const GLOSSY: [(&str, Glossy); 5] = [

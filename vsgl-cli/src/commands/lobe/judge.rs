@@ -301,7 +301,8 @@ type OfCosine = fn(f32, f32) -> f32;
 
 fn hemispheres(j: &mut Judge<'_>) {
     let fits = |r: &Row<'_>| sharp_enough(r, "sharpness");
-    let hemispherical: [(&str, OfCosine, f64); 2] = [
+    let hemispherical: [(&str, OfCosine, f64); 3] = [
+        ("sg::hemisphere::integral", hemisphere::integral, 6.3e-4),
         (
             "sg::hemisphere::integral_2018",
             hemisphere::integral_2018,
@@ -320,6 +321,15 @@ fn hemispheres(j: &mut Judge<'_>) {
             fits(r).then(|| of_peak(f(k, z), r.exact("sg_hemispherical_integral"), peak))?
         });
     }
+    j.add("sg::hemisphere::share", Absolute, Max(6.3e-4), |r| {
+        let (k, z) = (r.argument("sharpness"), r.argument("cosine"));
+        fits(r).then(|| {
+            pair(
+                hemisphere::share(k, z),
+                r.exact("vmf_hemispherical_integral"),
+            )
+        })?
+    });
     j.add("sg::hemisphere::share_2022", Absolute, Max(4.9e-3), |r| {
         let (k, z) = (r.argument("sharpness"), r.argument("cosine"));
         fits(r).then(|| {
@@ -329,7 +339,12 @@ fn hemispheres(j: &mut Judge<'_>) {
             )
         })?
     });
-    let cosines: [(&str, OfCosine, f64); 7] = [
+    let cosines: [(&str, OfCosine, f64); 8] = [
+        (
+            "sg::cosine::interpolated_v14",
+            cosine::interpolated_v14,
+            4.5e-5,
+        ),
         ("sg::cosine::constant", cosine::constant, 3.01),
         (
             "sg::cosine::sg_iwasaki_2012",

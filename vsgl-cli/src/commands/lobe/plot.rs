@@ -41,8 +41,9 @@ const RIGHT: f64 = 200.0;
 const TOP: f64 = 40.0;
 const BOTTOM: f64 = 50.0;
 /// Told apart also without colour vision; the first is for the exact value.
-const COLORS: [&str; 8] = [
+const COLORS: [&str; 9] = [
     "#000000", "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#999999",
+    "#800080",
 ];
 
 impl Axis {
