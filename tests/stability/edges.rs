@@ -58,6 +58,8 @@ proptest! {
             let value = f(k, z);
             prop_assert!(value.is_finite() && value >= 0.0);
         }
+        let log = clamped::log_interpolated(k, z);
+        prop_assert!(log.is_finite() && log <= top.ln() + 1e-5 && log >= clamped::log_lower(k) * (1.0 + ROUNDING) - 1e-5);
         let mean = clamped::mean_clamped_cosine(k, z);
         prop_assert!((0.0..=1.0 + ROUNDING).contains(&mean));
     }
