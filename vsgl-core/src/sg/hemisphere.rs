@@ -86,7 +86,7 @@ fn factor_2022(sharpness: f32, cosine: f32) -> f32 {
 #[inline(always)]
 fn factor_odd(sharpness: f32, cosine: f32) -> f32 {
     let k = sharpness;
-    let t = k * ((0.5 * k + 4.272_561_4) / ((k + 3.666_031_6) * k + 24.360_689)).sqrt();
+    let t = k * ((0.5 * k + 4.272_561_4) / ((k + 3.666_031_6) * k + 24.360_69)).sqrt();
     let tz = t * cosine;
     let ratio = erf(tz) / erf(t).max(1e-30);
     // Beyond 1e6 the correction is below 1e-6.
