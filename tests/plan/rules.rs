@@ -1,0 +1,186 @@
+//! Each rule with its reason.
+
+use vsgl_core::plan::Plan;
+use vsgl_core::scene::{Light, Material};
+use vsgl_core::settings::OcclusionMethod;
+use vsgl_tests::render::Shot;
+
+fn shot(settings: &str) -> Shot {
+    Shot::sample("cornell").with(settings)
+}
+
+fn matte(mut shot: Shot) -> Shot {
+    for material in &mut shot.scene.materials {
+        *material = Material::lambert("matte", [0.5; 3]);
+    }
+    shot
+}
+
+/// The decision about a topic, and its reason.
+fn reason<'a>(plan: &'a Plan, topic: &str) -> Option<(bool, &'a str)> {
+    let found: Vec<_> = plan.reasons.iter().filter(|r| r.topic == topic).collect();
+    assert!(found.len() <= 1, "`{topic}` is decided twice");
+    found.first().map(|r| (r.runs, r.why.as_str()))
+}
+
+#[test]
+fn everything_runs_where_everything_is_there() {
+    let plan = shot("clustering=filtered").plan();
+    let bounce = plan.bounce.as_ref().expect("a bounce");
+    assert!(bounce.pdf.is_some() && bounce.cluster.is_some() && bounce.rsm.glossy);
+    assert!(
+        plan.shade.bounce
+            && plan.shade.glossy_receivers
+            && plan.shade.glossy_senders
+            && plan.gbuffer.glossy
+    );
+    assert_eq!(plan.shade.occlusion, OcclusionMethod::Rays);
+    for topic in [
+        "bounce",
+        "specular lobes of the lights",
+        "specular term of the receivers",
+        "pdf",
+        "occlusion",
+    ] {
+        assert!(reason(&plan, topic).expect(topic).0, "{topic}");
+    }
+}
+
+#[test]
+fn no_bounce_without_triangles_lights_or_reflection() {
+    let mut empty = shot("");
+    empty.scene.mesh = Default::default();
+    let mut dark = shot("");
+    dark.lights.clear();
+    let mut black = shot("");
+    for material in &mut black.scene.materials {
+        *material = Material::lambert("black", [0.0; 3]);
+    }
+    let mut away = shot("");
+    for light in &mut away.lights {
+        let Light::Spot(spot) = light else {
+            panic!("a light of another kind")
+        };
+        spot.position = vsgl_core::glam::Vec3::Y * 50.0;
+        spot.axis = vsgl_core::glam::Vec3::Y;
+    }
+    for (shot, why) in [
+        (empty, "the scene has no triangles"),
+        (dark, "the scene has no lights"),
+        (
+            black,
+            "no surface that the lights may reach reflects anything",
+        ),
+        (
+            away,
+            "no surface that the lights may reach reflects anything",
+        ),
+    ] {
+        let plan = shot.plan();
+        assert_eq!(reason(&plan, "bounce"), Some((false, why)));
+        assert!(plan.bounce.is_none() && !plan.shade.bounce && !plan.shade.glossy_senders);
+        let frame = shot.frame();
+        assert!(frame.rsm.is_none() && frame.pdf.is_none() && frame.vsgls.is_none());
+        assert!(
+            frame.radiance.indirect_diffuse.is_empty() && frame.radiance.indirect_glossy.is_empty()
+        );
+    }
+}
+
+#[test]
+fn matte_scenes_have_no_specular_columns() {
+    let shot = matte(shot(""));
+    let plan = shot.plan();
+    assert_eq!(
+        reason(&plan, "specular lobes of the lights"),
+        Some((false, "no glossy surface within reach of the lights"))
+    );
+    assert_eq!(
+        reason(&plan, "specular term of the receivers"),
+        Some((false, "no glossy surface in front of the camera"))
+    );
+    let frame = shot.frame();
+    let (rsm, vsgls) = (frame.rsm.expect("maps"), frame.vsgls.expect("clusters"));
+    assert!(rsm.specular.is_empty() && rsm.grazing.is_empty() && vsgls.specular.is_empty());
+    assert!(frame.gbuffer.specular.is_empty() && frame.gbuffer.grazing.is_empty());
+    assert!(
+        frame.radiance.indirect_glossy.is_empty() && !frame.radiance.indirect_diffuse.is_empty()
+    );
+}
+
+#[test]
+fn textures_are_read_only_where_there_are_any() {
+    let mut shot = shot("");
+    assert_eq!(
+        reason(&shot.plan(), "texture reads"),
+        Some((false, "no material has a texture"))
+    );
+    shot.scene.materials[0].base_color_texture = Some(vsgl_core::scene::TextureRef {
+        texture: 0,
+        wrap: Default::default(),
+        filter: Default::default(),
+    });
+    let plan = shot.plan();
+    assert_eq!(
+        reason(&plan, "texture reads"),
+        Some((true, "materials have textures"))
+    );
+    assert!(plan.gbuffer.textures && plan.bounce.expect("a bounce").rsm.textures);
+}
+
+#[test]
+fn a_density_only_for_samples() {
+    let plan = shot("clustering=partition").plan();
+    assert_eq!(
+        reason(&plan, "pdf"),
+        Some((false, "an exact partition draws no samples"))
+    );
+    assert!(plan.bounce.expect("a bounce").pdf.is_none());
+    assert!(shot("clustering=partition").frame().pdf.is_none());
+    let pdf = shot("clustering=filtered lights=77")
+        .plan()
+        .bounce
+        .expect("a bounce")
+        .pdf;
+    assert_eq!(pdf.expect("a density").count, 77);
+}
+
+#[test]
+fn points_need_no_clusters() {
+    let shot = shot("method=vpl rsm=16 occlusion=none clustering=filtered");
+    let plan = shot.plan();
+    assert_eq!(
+        reason(&plan, "clusters"),
+        Some((false, "the method `vpl` takes every texel for a light"))
+    );
+    let bounce = plan.bounce.as_ref().expect("a bounce");
+    assert!(bounce.cluster.is_none() && bounce.pdf.is_none());
+    let frame = shot.frame();
+    assert!(frame.rsm.is_some() && frame.vsgls.is_none() && frame.pdf.is_none());
+}
+
+#[test]
+fn occlusion_is_said_to_be_off() {
+    let plan = shot("occlusion=none").plan();
+    assert_eq!(
+        reason(&plan, "occlusion"),
+        Some((false, "switched off: indirect light passes through walls"))
+    );
+    assert_eq!(plan.shade.occlusion, OcclusionMethod::None);
+    // Without a bounce there is nothing to block, and nothing is said.
+    let mut dark = shot("");
+    dark.lights.clear();
+    assert_eq!(reason(&dark.plan(), "occlusion"), None);
+    assert_eq!(dark.plan().shade.occlusion, OcclusionMethod::None);
+}
+
+#[test]
+fn settings_that_do_not_go_together_are_refused_with_a_remedy() {
+    let shot = shot("glossy=asg-2013 emission=cosine");
+    let error = Plan::new(&shot.facts(), &shot.settings)
+        .expect_err("refused")
+        .to_string();
+    for word in ["asg-2013", "emission", "sg", "paper-2016"] {
+        assert!(error.contains(word), "{error}");
+    }
+}
