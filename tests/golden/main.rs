@@ -37,13 +37,12 @@ fn means(width: u32, height: u32, pixels: &[[f32; 3]]) -> Vec<f64> {
     let mut values = Vec::new();
     for y in (0..height).step_by(BLOCK as usize) {
         for x in (0..width).step_by(BLOCK as usize) {
-            for channel in 0..3 {
-                let block = (0..BLOCK * BLOCK).map(|i| {
-                    let at = (y + i / BLOCK) * width + x + i % BLOCK;
-                    f64::from(pixels[at as usize][channel])
-                });
-                values.push(block.sum::<f64>() / f64::from(BLOCK * BLOCK));
-            }
+            let block = (0..BLOCK * BLOCK).map(|i| {
+                let at = (y + i / BLOCK) * width + x + i % BLOCK;
+                pixels[at as usize].map(f64::from)
+            });
+            let sum = block.fold([0.0; 3], |s, c| [s[0] + c[0], s[1] + c[1], s[2] + c[2]]);
+            values.extend(sum.map(|c| c / f64::from(BLOCK * BLOCK)));
         }
     }
     values
