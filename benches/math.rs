@@ -100,9 +100,9 @@ const LIGHT: Vec3 = Vec3::new(-0.6, 0.0, 0.8);
 group! { glossy:
     reflectance = |x, y| ggx::reflectance(view(y), LIGHT, Vec3::Z, 0.3) * x;
     albedo = |x, y| ggx_albedo(y, 0.1) .b * x;
-    sg_2016 = |x, y| warp::glossy_sg_2016(view(y), Vec3::Z, 0.3, LIGHT, x);
-    asg_2015 = |x, y| warp::glossy_asg_2015(view(y), Vec3::Z, 0.3, LIGHT, x);
+    sg_2015 = |x, y| warp::glossy_sg_2015(view(y), Vec3::Z, 0.3, LIGHT, x);
     asg_2016 = |x, y| warp::glossy_asg_2016(view(y), Vec3::Z, 0.3, LIGHT, x);
+    asg_2015 = |x, y| warp::glossy_asg_2015(view(y), Vec3::Z, 0.3, LIGHT, x);
     filtered_2024 = |x, y| GlossyView::new(view(y), Vec3::Z, 0.3).filtered_2024(LIGHT, x);
     masked = |x, y| GlossyView::new(view(y), Vec3::Z, 0.3).masked(LIGHT, x, x);
     blended = |x, y| GlossyView::new(view(y), Vec3::Z, 0.3).blended(LIGHT, x, x);

@@ -31,7 +31,7 @@ proptest! {
         prop_assert!(fit(local.filtered_2024(axis, k)));
         let refracted = FilteredView::refraction(view, a, b, index);
         prop_assert!(fit(refracted.refracted_density(axis, k, index)) && fit(refracted.transmitted_2024(axis, k, index)));
-        for f in [warp::glossy_asg_2015, warp::glossy_asg_2016, warp::glossy_sg_2016] {
+        for f in [warp::glossy_asg_2016, warp::glossy_asg_2015, warp::glossy_sg_2015] {
             prop_assert!(fit(f(view, normal, a, axis, k)));
         }
         let lobe = reflection_lobe(view, normal, 0.5 * warp::normal_sharpness(a));

@@ -3,7 +3,7 @@
 //! Standard libraries and shader compilers each round these functions in their own way. The ones here are texts:
 //! every backend that repeats them operation for operation obtains the same bits, and a loop over lanes vectorises.
 //! Polynomials are in Horner form from the highest coefficient down and must be copied in that order. The coefficients
-//! are our own minimax fits, made by `scripts/fit_elementary.py`.
+//! are our own minimax fits.
 //!
 //! Arguments are finite. Errors were measured against exact values, see `docs/accuracy.md`.
 

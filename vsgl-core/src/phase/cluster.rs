@@ -323,7 +323,7 @@ fn lights_sg(sum: &Sum, map: &MapRecord, plan: &ClusterPlan) -> (DiffuseVsgl, Sp
 
     let lambert_length = match plan.sharpness {
         SharpnessFit::Banerjee => vmf::mean_banerjee_2005(cosine::COSINE_SHARPNESS).length,
-        SharpnessFit::Toksvig => vmf::mean_toksvig_2005(cosine::COSINE_SHARPNESS_2016).length,
+        SharpnessFit::Toksvig => vmf::mean_toksvig_2005(cosine::COSINE_SHARPNESS_2015).length,
     };
     let (axis, mean) = sum.diffuse.facing();
     let mean = vmf::MeanLength::from_length(mean.length * lambert_length);

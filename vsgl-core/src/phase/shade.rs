@@ -314,7 +314,7 @@ pub fn glossy_asg_2013(incoming: &Incoming, receiver: &Receiver) -> f32 {
         alpha,
         ..
     } = *receiver;
-    let reflected = warp::glossy_asg_2015(view, normal, alpha, incoming.axis, incoming.sharpness);
+    let reflected = warp::glossy_asg_2016(view, normal, alpha, incoming.axis, incoming.sharpness);
     reflected / lobe::integral(incoming.sharpness)
 }
 

@@ -34,7 +34,7 @@ use super::{hemisphere, vmf};
 use crate::math::elementary::{INV_SQRT_PI, erf_integral, erfc_integral_scaled, exp, log};
 
 /// Sharpness of the lobe that stands for a clamped cosine in the papers of 2015 and 2016, and agrees with Toksvig's map.
-pub const COSINE_SHARPNESS_2016: f32 = 2.0;
+pub const COSINE_SHARPNESS_2015: f32 = 2.0;
 
 /// Sharpness of the normalised lobe closest to a normalised clamped cosine in least squares.
 pub const COSINE_SHARPNESS: f32 = 2.292_504;
@@ -73,26 +73,26 @@ pub fn constant(sharpness: f32, cosine: f32) -> f32 {
     lobe::integral(sharpness) * cosine.max(0.0)
 }
 
-/// Clamped cosine as a lobe of sharpness [`COSINE_SHARPNESS_2016`] and integral π, with the sharp-lobe inner product.
+/// Clamped cosine as a lobe of sharpness [`COSINE_SHARPNESS_2015`] and integral π, with the sharp-lobe inner product.
 ///
-/// Source: Iwasaki et al. 2012, "Interactive Bi-scale Editing of Highly Glossy Materials"; Tokuyoshi 2016, "Fast Indirect
+/// Source: Iwasaki et al. 2012, "Interactive Bi-scale Editing of Highly Glossy Materials"; Tokuyoshi 2015, "Fast Indirect
 /// Illumination Using Two Virtual Spherical Gaussian Lights".
 #[inline(always)]
 #[must_use]
 pub fn sg_iwasaki_2012(sharpness: f32, cosine: f32) -> f32 {
     let k = sharpness.min(SHARPNESS_MAX);
-    let sum = k + COSINE_SHARPNESS_2016;
-    let value = exp((cosine - 1.0) * (k / sum) * COSINE_SHARPNESS_2016) * (TAU / sum);
-    value * (PI / lobe::integral(COSINE_SHARPNESS_2016))
+    let sum = k + COSINE_SHARPNESS_2015;
+    let value = exp((cosine - 1.0) * (k / sum) * COSINE_SHARPNESS_2015) * (TAU / sum);
+    value * (PI / lobe::integral(COSINE_SHARPNESS_2015))
 }
 
-/// Clamped cosine as a lobe of sharpness [`COSINE_SHARPNESS_2016`] and integral π, with the exact inner product.
+/// Clamped cosine as a lobe of sharpness [`COSINE_SHARPNESS_2015`] and integral π, with the exact inner product.
 #[inline(always)]
 #[must_use]
 pub fn sg_product(sharpness: f32, cosine: f32) -> f32 {
     let (axis, normal) = axis_and_normal(cosine);
-    lobe::inner_product(axis, sharpness, normal, COSINE_SHARPNESS_2016)
-        * (PI / lobe::integral(COSINE_SHARPNESS_2016))
+    lobe::inner_product(axis, sharpness, normal, COSINE_SHARPNESS_2015)
+        * (PI / lobe::integral(COSINE_SHARPNESS_2015))
 }
 
 /// Two unit vectors whose dot product is `cosine`.

@@ -103,23 +103,24 @@ pub fn reflection_asg_local(view: Vec3, alpha_x: f32, alpha_y: f32) -> AsgLobe {
 /// `∫ f (ω·n) G dω` with the reflection lobe of [`asg::reflection_lobe`] (half sharpness `1/α²`) and the rest of the
 /// reflectance taken at the axis of the integrand. Fresnel factor 1.
 ///
-/// Source: Xu et al. 2013, "Anisotropic Spherical Gaussians"; Tokuyoshi 2016, "Fast Indirect Illumination Using Two Virtual
-/// Spherical Gaussian Lights" (the axis; the paper of 2015 takes the light's own).
+/// Source: Xu et al. 2013, "Anisotropic Spherical Gaussians"; Tokuyoshi 2015, "Fast Indirect Illumination Using Two Virtual
+/// Spherical Gaussian Lights", supplement, section 3.2 (the axis; the paper of 2016 takes the light's own).
 #[inline(always)]
 #[must_use]
-pub fn glossy_asg_2016(view: Vec3, normal: Vec3, alpha: f32, axis: Vec3, sharpness: f32) -> f32 {
+pub fn glossy_asg_2015(view: Vec3, normal: Vec3, alpha: f32, axis: Vec3, sharpness: f32) -> f32 {
     let lobe = asg::reflection_lobe(view, normal, 0.5 * normal_sharpness(alpha));
     let surface = reflection_sg(view, normal, alpha);
     let middle = normalize(axis * sharpness.min(SHARPNESS_MAX) + lobe.z * surface.sharpness);
     lobe.product_integral(axis, sharpness) * rest(view, normal, alpha, middle)
 }
 
-/// As [`glossy_asg_2016`] with the rest of the reflectance taken at the light's axis.
+/// As [`glossy_asg_2015`] with the rest of the reflectance taken at the light's axis.
 ///
-/// Source: Tokuyoshi 2015, "Virtual Spherical Gaussian Lights for Real-Time Glossy Indirect Illumination".
+/// Source: Tokuyoshi 2016, "Modified Filtered Importance Sampling for Virtual Spherical Gaussian Lights", supplement,
+/// section C.2.
 #[inline(always)]
 #[must_use]
-pub fn glossy_asg_2015(view: Vec3, normal: Vec3, alpha: f32, axis: Vec3, sharpness: f32) -> f32 {
+pub fn glossy_asg_2016(view: Vec3, normal: Vec3, alpha: f32, axis: Vec3, sharpness: f32) -> f32 {
     let lobe = asg::reflection_lobe(view, normal, 0.5 * normal_sharpness(alpha));
     lobe.product_integral(axis, sharpness) * rest(view, normal, alpha, axis)
 }
@@ -135,10 +136,10 @@ fn rest(view: Vec3, normal: Vec3, alpha: f32, light: Vec3) -> f32 {
 
 /// `∫ f (ω·n) G dω` with the normalised isotropic lobe of [`reflection_sg`] in place of the reflectance.
 ///
-/// Source: Tokuyoshi 2016, "Fast Indirect Illumination Using Two Virtual Spherical Gaussian Lights", Eq. 2.
+/// Source: Tokuyoshi 2015, "Fast Indirect Illumination Using Two Virtual Spherical Gaussian Lights", Eq. 2.
 #[inline(always)]
 #[must_use]
-pub fn glossy_sg_2016(view: Vec3, normal: Vec3, alpha: f32, axis: Vec3, sharpness: f32) -> f32 {
+pub fn glossy_sg_2015(view: Vec3, normal: Vec3, alpha: f32, axis: Vec3, sharpness: f32) -> f32 {
     let surface = reflection_sg(view, normal, alpha);
     let log_norm = lobe::log_integral(surface.sharpness);
     let log_product = lobe::log_inner_product(surface.axis, surface.sharpness, axis, sharpness);
@@ -189,7 +190,7 @@ mod tests {
                 let view = Vec3::new((1.0 - z * z).sqrt(), 0.0, z);
                 for k in [0.0, 1.0, 1e6, f32::MAX] {
                     for axis in [Vec3::Z, Vec3::X, -Vec3::Z, -view] {
-                        for f in [glossy_asg_2015, glossy_asg_2016, glossy_sg_2016] {
+                        for f in [glossy_asg_2016, glossy_asg_2015, glossy_sg_2015] {
                             let value = f(view, Vec3::Z, alpha, axis, k);
                             assert!(
                                 value.is_finite() && value >= 0.0,

@@ -28,8 +28,8 @@ const HEMISPHERES: [(&str, OfCosine); 3] = [
 ];
 
 const GLOSSY: [(&str, Glossy); 5] = [
-    ("SG 2016", warp::glossy_sg_2016),
-    ("ASG 2016", warp::glossy_asg_2016),
+    ("SG 2015", warp::glossy_sg_2015),
+    ("ASG 2015", warp::glossy_asg_2015),
     ("filtering 2024", glossy::filtered_2024),
     ("masked", glossy::masked),
     ("blended", glossy_blend::blended),

@@ -555,9 +555,9 @@ fn glossy_integral(j: &mut Judge<'_>) {
         ("sg::glossy_blend::blended", glossy_blend::blended, 0.1),
         ("sg::glossy::masked", glossy::masked, 0.2),
         ("sg::glossy::filtered_2024", glossy::filtered_2024, 0.2),
-        ("sg::warp::glossy_asg_2016", warp::glossy_asg_2016, 0.25),
-        ("sg::warp::glossy_asg_2015", warp::glossy_asg_2015, 0.3),
-        ("sg::warp::glossy_sg_2016", warp::glossy_sg_2016, 0.6),
+        ("sg::warp::glossy_asg_2015", warp::glossy_asg_2015, 0.25),
+        ("sg::warp::glossy_asg_2016", warp::glossy_asg_2016, 0.3),
+        ("sg::warp::glossy_sg_2015", warp::glossy_sg_2015, 0.6),
     ];
     for (name, f, limit) in forms {
         j.add(name, Relative, Median(limit), |r| {
