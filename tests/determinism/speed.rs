@@ -15,19 +15,25 @@ const BLOCKS: usize = 16;
 const LIGHTS: usize = 64;
 const TURNS: usize = 9;
 
-/// How much faster blocks have to be. Eight lanes and fused loads with AVX2; without it four lanes of the baseline machine
-/// bring two to three.
-fn required() -> Option<f64> {
+/// How much faster blocks have to be where there is AVX2, with its eight lanes. Measured were 7.9 for clusters and 6.1 for
+/// points; 4.6 for clusters with only the smallest of their texts not inlined.
+const CLUSTERS: f64 = 5.5;
+const POINTS: f64 = 4.0;
+/// Without AVX2 the four lanes of the baseline machine bring two to three.
+const BASELINE: f64 = 1.5;
+
+/// What is required of this machine; none where speed says nothing.
+fn required(with_avx2: f64) -> Option<f64> {
     if cfg!(debug_assertions) {
         println!("skipped 1 test: speed is judged with optimisation");
         return None;
     }
     #[cfg(target_arch = "x86_64")]
     if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
-        return Some(4.0);
+        return Some(with_avx2);
     }
-    println!("no AVX2 here: 1.5 times is enough");
-    Some(1.5)
+    println!("no AVX2 here: {BASELINE} times is enough, not {with_avx2}");
+    Some(BASELINE)
 }
 
 /// Median seconds of a turn of each; they take turns, so that a slow moment hits both.
@@ -63,7 +69,9 @@ fn judge(name: &str, repeats: usize, (lanes, single): (f64, f64), required: f64)
 
 #[test]
 fn blocks_of_clusters_are_fast() {
-    let Some(required) = required() else { return };
+    let Some(required) = required(CLUSTERS) else {
+        return;
+    };
     let plan = plan(Emission::Cosine, DiffuseForm::V13, GlossyForm::NdfFilter);
     let mut random = Random(3);
     let singles: Vec<_> = (0..BLOCKS).map(|_| receivers(&mut random)).collect();
@@ -103,13 +111,15 @@ fn blocks_of_clusters_are_fast() {
 
 #[test]
 fn blocks_of_points_are_fast() {
-    let Some(required) = required() else { return };
+    let Some(required) = required(POINTS) else {
+        return;
+    };
     let plan = plan(Emission::Cosine, DiffuseForm::V13, GlossyForm::NdfFilter);
     let mut random = Random(4);
     let singles: Vec<_> = (0..BLOCKS).map(|_| receivers(&mut random)).collect();
     let blocks: Vec<_> = singles.iter().map(Receivers::new).collect();
     let lights: Vec<_> = (0..LIGHTS).map(|_| point(&mut random)).collect();
-    let repeats = 20;
+    let repeats = 50;
     let lanes = || {
         for _ in 0..repeats {
             for block in &blocks {
