@@ -23,7 +23,9 @@ fn numbers_of_lights_and_texels() {
         (7, 3),
         (1000, 33),
     ] {
-        let shot = sample("cornell").with(&format!("lights={lights} rsm={rsm}"));
+        let shot = sample("cornell")
+            .size(12, 7)
+            .with(&format!("lights={lights} rsm={rsm}"));
         let indirect = sound(&format!("{lights} lights, {rsm} texels"), &shot);
         assert!(indirect > 0.0, "{lights} lights from {rsm} texels are dark");
     }
