@@ -2,6 +2,30 @@
 //!
 //! Work is cut into pieces of fixed size, and sums over them are taken in a fixed order, so that a picture has the same
 //! bits for any number of threads.
+//!
+//! ```
+//! use vsgl_core::backend::Backend;
+//! use vsgl_core::data::SceneData;
+//! use vsgl_core::plan::Plan;
+//! use vsgl_core::render::{View, render};
+//! use vsgl_core::scene::{SceneFacts, samples};
+//! use vsgl_core::settings::Settings;
+//! use vsgl_cpu::CpuBackend;
+//!
+//! # fn main() -> vsgl_core::Result<()> {
+//! let scene = samples::by_name("cornell")?;
+//! let view = View::new(scene.cameras[0].1, 32, 18)?;
+//! let facts = SceneFacts::new(&scene, &scene.lights, &view.camera);
+//! let plan = Plan::new(&facts, &Settings { lights: 64, rsm: 64, ..Settings::default() })?;
+//!
+//! let backend = CpuBackend::new(0)?;
+//! let data = backend.upload(SceneData::new(&scene))?;
+//! let frame = render(&backend, &data, &scene.lights, &view, &plan, &())?;
+//! let image = backend.download(&frame.image)?;
+//! assert_eq!(image.beauty().len(), 32 * 18);
+//! # Ok(())
+//! # }
+//! ```
 
 mod phase;
 

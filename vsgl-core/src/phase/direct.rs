@@ -1,6 +1,6 @@
 //! Light of the lights themselves at one receiver.
 
-use super::shade::{Incoming, Receiver, fresnel_weight, glossy_point, lambert_constant};
+use super::shade::{Colors, Incoming, Receiver, fresnel_weight, glossy_point, lambert_constant};
 use super::surface::lift;
 use crate::data::SceneData;
 use crate::geom::{Ray, any_hit};
@@ -38,9 +38,7 @@ pub fn radiance(
     light: &Light,
     receiver: &Receiver,
     facing: Vec3,
-    albedo: Vec3,
-    f0: Vec3,
-    f90: f32,
+    colors: &Colors,
 ) -> Vec3 {
     let Light::Spot(SpotLight {
         position: source, ..
@@ -48,6 +46,7 @@ pub fn radiance(
     let incoming = incoming(light, receiver.position);
     let lambert = lambert_constant(&incoming, receiver) * std::f32::consts::FRAC_1_PI;
     let specular = glossy_point(&incoming, receiver);
+    let Colors { albedo, f0, f90 } = *colors;
     let fresnel = f0 + (Vec3::splat(f90) - f0) * fresnel_weight(&incoming, receiver);
     let reflected = incoming.strength * (albedo * lambert + fresnel * specular);
     if reflected == Vec3::ZERO {

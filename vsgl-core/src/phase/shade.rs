@@ -5,7 +5,7 @@
 
 use crate::brdf::fresnel::{half_cosine, schlick_weight};
 use crate::brdf::ggx;
-use crate::data::{DiffuseVsgl, SpecularVsgl};
+use crate::data::{DiffuseVsgl, GBuffer, Rsm, SpecularVsgl};
 use crate::math::elementary::{exp, expm1_over_x};
 use crate::math::vec::normalize;
 use crate::sg::glossy::GlossyView;
@@ -45,6 +45,58 @@ pub struct Receiver {
     pub f90: f32,
     /// GGX roughness.
     pub alpha: f32,
+}
+
+impl Receiver {
+    /// The receiver at a sample of a G-buffer that hit something, seen from `eye`.
+    pub fn of(gbuffer: &GBuffer, sample: usize, eye: Vec3) -> Self {
+        let [nx, ny, nz, f90] = gbuffer.normal[sample];
+        let position = xyz(gbuffer.position[sample]);
+        Self {
+            position,
+            normal: Vec3::new(nx, ny, nz),
+            view: normalize(eye - position),
+            f0: gbuffer.diffuse[sample][3],
+            f90,
+            alpha: gbuffer.specular.get(sample).map_or(1.0, |s| s[3]),
+        }
+    }
+}
+
+/// The colours of a receiver, which sums over lights are multiplied by.
+#[derive(Clone, Copy, Debug)]
+pub struct Colors {
+    /// Albedo of the Lambert part.
+    pub albedo: Vec3,
+    /// Specular reflectance at normal incidence.
+    pub f0: Vec3,
+    /// Specular reflectance at grazing incidence.
+    pub f90: f32,
+}
+
+impl Colors {
+    /// The colours at a sample of a G-buffer; without specular columns those are black.
+    pub fn of(gbuffer: &GBuffer, sample: usize) -> Self {
+        Self {
+            albedo: xyz(gbuffer.diffuse[sample]),
+            f0: gbuffer.specular.get(sample).map_or(Vec3::ZERO, |&s| xyz(s)),
+            f90: gbuffer.grazing.get(sample).copied().unwrap_or_default(),
+        }
+    }
+
+    /// Radiance to the eye by the Lambert part, from the sum of strength times Lambert factor.
+    pub fn diffuse(&self, sum: Vec3) -> Vec3 {
+        sum * (self.albedo * std::f32::consts::FRAC_1_PI)
+    }
+
+    /// Radiance to the eye by the specular part, from the sums for `F0` and for `F90`.
+    pub fn glossy(&self, near: Vec3, grazing: Vec3) -> Vec3 {
+        near * self.f0 + grazing * self.f90
+    }
+}
+
+fn xyz(v: [f32; 4]) -> Vec3 {
+    Vec3::new(v[0], v[1], v[2])
 }
 
 /// The way from a receiver to a cluster.
@@ -235,6 +287,39 @@ pub struct PointSender {
     pub f90: Vec3,
     /// GGX roughness.
     pub alpha: f32,
+}
+
+impl PointSender {
+    /// The light of a texel; none if it reflects no flux. Without `glossy` its specular part is left out.
+    pub fn of(rsm: &Rsm, texel: usize, glossy: bool) -> Option<Self> {
+        let (diffuse, specular) = rsm.weights(texel);
+        if diffuse + specular <= 0.0 {
+            return None;
+        }
+        let position = xyz(rsm.position[texel]);
+        let lambert = Self {
+            position,
+            variance: rsm.position[texel][3] * (1.0 / 12.0),
+            normal: xyz(rsm.normal[texel]),
+            light: normalize(Vec3::from_array(rsm.map_of(texel).position) - position),
+            diffuse: xyz(rsm.diffuse[texel]),
+            dielectric_f0: rsm.diffuse[texel][3],
+            dielectric_f90: rsm.normal[texel][3],
+            alpha: 1.0,
+            ..Self::default()
+        };
+        Some(if glossy {
+            let specular = rsm.specular[texel];
+            Self {
+                f0: xyz(specular),
+                f90: xyz(rsm.grazing[texel]),
+                alpha: specular[3],
+                ..lambert
+            }
+        } else {
+            lambert
+        })
+    }
 }
 
 /// What a virtual point light sends: its reflectance as it is, in the direction of the receiver.

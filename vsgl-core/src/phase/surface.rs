@@ -70,7 +70,8 @@ pub fn at_hit(scene: &SceneData, hit: &Hit, direction: Vec3, textured: bool) -> 
     let mut base = material.base_color;
     let mut metallic = material.metallic;
     let mut roughness = material.roughness;
-    if textured {
+    // A plan made by hand may ask for textures that the scene has not.
+    if textured && !scene.corner_texcoord.is_empty() {
         let (s, t) = texcoord(scene, triangle, u, v);
         if material.base_color_texture != NO_TEXTURE {
             let color = texture::sample(scene, material.base_color_texture, s, t, true);

@@ -9,9 +9,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use vsgl_core::backend::{Senders, ShadeInputs};
 use vsgl_core::data::{GBuffer, NO_TRIANGLE, Radiance, Rsm, SceneData, Target, Vsgls};
 use vsgl_core::geom::any_hit_block;
-use vsgl_core::math::vec::normalize;
 use vsgl_core::phase::direct;
-use vsgl_core::phase::shade::{PointSender, Receiver};
+use vsgl_core::phase::shade::{Colors, PointSender, Receiver};
 use vsgl_core::phase::surface::{geometric_normal, lift};
 use vsgl_core::plan::ShadePlan;
 use vsgl_core::render::{Observer, Phase};
@@ -98,36 +97,7 @@ pub(crate) fn run(
 /// Texels with flux as point lights.
 fn point_senders(rsm: &Rsm, plan: &ShadePlan) -> Vec<(u32, PointSender)> {
     let sender = |texel: usize| {
-        let (diffuse, specular) = rsm.weights(texel);
-        if diffuse + specular <= 0.0 {
-            return None;
-        }
-        let [x, y, z, area] = rsm.position[texel];
-        let [nx, ny, nz, dielectric_f90] = rsm.normal[texel];
-        let [r, g, b, dielectric_f0] = rsm.diffuse[texel];
-        let position = Vec3::new(x, y, z);
-        let mut point = PointSender {
-            position,
-            variance: area * (1.0 / 12.0),
-            normal: Vec3::new(nx, ny, nz),
-            light: normalize(Vec3::from_array(rsm.map_of(texel).position) - position),
-            diffuse: Vec3::new(r, g, b),
-            dielectric_f0,
-            dielectric_f90,
-            alpha: 1.0,
-            ..PointSender::default()
-        };
-        if plan.glossy_senders {
-            let [r, g, b, alpha] = rsm.specular[texel];
-            let [r90, g90, b90, _] = rsm.grazing[texel];
-            point = PointSender {
-                f0: Vec3::new(r, g, b),
-                f90: Vec3::new(r90, g90, b90),
-                alpha,
-                ..point
-            };
-        }
-        Some((texel as u32, point))
+        PointSender::of(rsm, texel, plan.glossy_senders).map(|point| (texel as u32, point))
     };
     (0..rsm.position.len())
         .into_par_iter()
@@ -175,7 +145,8 @@ impl Shader<'_> {
         };
         // Lanes without a surface repeat one that has: the same work, thrown away.
         let index = |lane: usize| start + if hit[lane] { lane } else { some };
-        let single: [Receiver; LANES] = std::array::from_fn(|lane| self.receiver(index(lane)));
+        let single: [Receiver; LANES] =
+            std::array::from_fn(|lane| Receiver::of(self.gbuffer, index(lane), self.eye));
         let mut origins = Origins {
             position: [[0.0; LANES]; 3],
             hit,
@@ -189,7 +160,14 @@ impl Shader<'_> {
                 origins.position[channel][lane] = origin[channel];
             }
             if hit[lane] {
-                block.direct[lane] = self.direct(index(lane), receiver, facing).to_array();
+                let colors = Colors::of(self.gbuffer, index(lane));
+                let one = |light| direct::radiance(self.scene, light, receiver, facing, &colors);
+                let sum = self
+                    .lights
+                    .iter()
+                    .map(one)
+                    .fold(Vec3::ZERO, |sum, more| sum + more);
+                block.direct[lane] = sum.to_array();
             }
         }
         let receivers = Receivers::new(&single);
@@ -201,49 +179,13 @@ impl Shader<'_> {
             }
         };
         for lane in (0..LANES).filter(|&lane| hit[lane]) {
-            let i = index(lane);
-            let albedo = self.gbuffer.diffuse[i];
-            let f0 = self.gbuffer.specular.get(i).copied().unwrap_or_default();
-            let f90 = self.gbuffer.grazing.get(i).copied().unwrap_or_default();
-            for channel in 0..3 {
-                let over_pi = albedo[channel] * std::f32::consts::FRAC_1_PI;
-                block.indirect_diffuse[lane][channel] = sums.diffuse[channel][lane] * over_pi;
-                let glossy =
-                    sums.near[channel][lane] * f0[channel] + sums.grazing[channel][lane] * f90;
-                block.indirect_glossy[lane][channel] = glossy;
-            }
+            let colors = Colors::of(self.gbuffer, index(lane));
+            let [diffuse, near, grazing] = [&sums.diffuse, &sums.near, &sums.grazing]
+                .map(|sum| Vec3::from_array(sum.map(|c| c[lane])));
+            block.indirect_diffuse[lane] = colors.diffuse(diffuse).to_array();
+            block.indirect_glossy[lane] = colors.glossy(near, grazing).to_array();
         }
         block
-    }
-
-    fn receiver(&self, index: usize) -> Receiver {
-        let [x, y, z, _] = self.gbuffer.position[index];
-        let [nx, ny, nz, f90] = self.gbuffer.normal[index];
-        let position = Vec3::new(x, y, z);
-        Receiver {
-            position,
-            normal: Vec3::new(nx, ny, nz),
-            view: normalize(self.eye - position),
-            f0: self.gbuffer.diffuse[index][3],
-            f90,
-            alpha: self.gbuffer.specular.get(index).map_or(1.0, |s| s[3]),
-        }
-    }
-
-    fn direct(&self, index: usize, receiver: &Receiver, facing: Vec3) -> Vec3 {
-        let xyz = |v: [f32; 4]| Vec3::new(v[0], v[1], v[2]);
-        let albedo = xyz(self.gbuffer.diffuse[index]);
-        let f0 = self
-            .gbuffer
-            .specular
-            .get(index)
-            .map_or(Vec3::ZERO, |&v| xyz(v));
-        let f90 = self.gbuffer.grazing.get(index).copied().unwrap_or_default();
-        let one = |light| direct::radiance(self.scene, light, receiver, facing, albedo, f0, f90);
-        self.lights
-            .iter()
-            .map(one)
-            .fold(Vec3::ZERO, |sum, more| sum + more)
     }
 }
 
