@@ -5,6 +5,7 @@ use proptest::prelude::*;
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 use vsgl_core::brdf::albedo::ggx_albedo;
+use vsgl_core::brdf::{beckmann, roughness::Roughness};
 use vsgl_core::glam::Vec3;
 use vsgl_core::math::elementary as el;
 use vsgl_core::sg::glossy::GlossyView;
@@ -55,6 +56,11 @@ over_lanes! {
     erfc = |x, y| el::erfc(x * y);
     erf_integral = |x, y| el::erf_integral((x * y).abs());
     erfc_integral = |x, y| el::erfc_integral((x * y).abs());
+    erfc_scaled = |x, y| el::erfc_scaled((x * y).abs());
+    erfc_inverse = |x, y| el::erfc_inverse(x.min(2.0)) + y;
+    bessel_i0_scaled = |x, y| el::bessel_i0_scaled((x * y).abs());
+    beckmann_normal = |x, y| beckmann::sample_visible_normal(Vec3::new(0.6, 0.0, 0.8 * y.abs()),
+        Roughness::rotated(0.4, 0.1, 0.6, 0.8), x - x.floor(), y.abs().min(0.9)).x;
     sin_turns = |x, y| el::sin_cos_turns(x.min(10.0) * y).0;
     lobe_integral = |x, y| lobe::integral(x) * y;
     share_2022 = |x, y| hemisphere::share_2022(x, y);

@@ -72,6 +72,12 @@ proptest! {
         prop_assert!((0.0..=1.0).contains(&ggx_local::sample_weight(view, light, roughness)));
         prop_assert!(fit(ggx_local::reflected_density(view, light, roughness)));
         prop_assert!(fit(ggx_local::visible_normal_density(view, half, roughness)));
+        let half = beckmann::sample_visible_normal(view, roughness, u, v);
+        prop_assert!((half.length() - 1.0).abs() < 1e-5 && half.z >= 0.0);
+        let light = normalize(reflect(view, half));
+        prop_assert!((0.0..=1.0).contains(&beckmann::sample_weight(view, light, roughness)));
+        prop_assert!(fit(beckmann::reflected_density(view, light, roughness)));
+        prop_assert!(fit(beckmann::visible_normal_density(view, half, roughness)));
     }
 
     #[test]
