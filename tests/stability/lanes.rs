@@ -65,6 +65,7 @@ over_lanes! {
     lobe_integral = |x, y| lobe::integral(x) * y;
     share_2022 = |x, y| hemisphere::share_2022(x, y);
     share = |x, y| hemisphere::share(x, y);
+    log_integral = |x, y| hemisphere::log_integral(x, y);
     integral_2022 = |x, y| hemisphere::integral_2022(x, y);
     interpolated_2024 = |x, y| clamped::interpolated_2024(x, y);
     interpolated_v13 = |x, y| clamped::interpolated_v13(x, y);

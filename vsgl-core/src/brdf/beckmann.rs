@@ -217,7 +217,17 @@ mod tests {
     fn slopes_invert_their_distribution() {
         let mut worst = 0.0f64;
         for angle in [
-            0.0f32, 0.01, 0.1, 0.2, 0.4, 0.7, 1.0, 1.3, 1.5, 1.57, 1.570_796,
+            0.0f32,
+            0.01,
+            0.1,
+            0.2,
+            0.4,
+            0.7,
+            1.0,
+            1.3,
+            1.5,
+            1.57,
+            std::f32::consts::FRAC_PI_2,
         ] {
             let (sine, cosine) = angle.sin_cos();
             let (s, c) = (f64::from(sine), f64::from(cosine));

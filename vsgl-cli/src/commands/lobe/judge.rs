@@ -372,6 +372,11 @@ fn hemispheres(j: &mut Judge<'_>) {
             fits(r).then(|| of_peak(f(k, z), r.exact("sg_clamped_cosine_integral"), peak))?
         });
     }
+    j.add("sg::hemisphere::log_integral", Logarithm, Max(0.01), |r| {
+        let (k, z) = (r.argument("sharpness"), r.argument("cosine"));
+        let exact = r.exact("ln_sg_hemispherical_integral");
+        fits(r).then(|| pair(hemisphere::log_integral(k, z), exact))?
+    });
     j.add("sg::cosine::log_interpolated", Logarithm, Max(0.13), |r| {
         let (k, z) = (r.argument("sharpness"), r.argument("cosine"));
         let exact = r.exact("ln_sg_clamped_cosine_integral");
