@@ -261,6 +261,11 @@ impl FilteredView {
 
     /// Transmitted radiance for a light of strength 1 and transmittance 1: the refracted density times the share of the
     /// lobe below the surface.
+    ///
+    /// For sharp lights only. Against a quadrature of the transmitted GGX lobe (separable masking; roughness 0.1 … 0.5, index 1.33,
+    /// 1.5 and 1/1.5, cosines 0.5 … 1) towards the refracted view it is too large by a fifth on average and by 42 % at most at
+    /// sharpness 300; at sharpness 3 by up to 12 times, since the Jacobian at the normal spreads a wide light over more half
+    /// vectors than refract, and the result exceeds the light's peak. Away from the peak the relative error is larger.
     #[inline(always)]
     #[must_use]
     pub fn transmitted_2024(&self, axis: Vec3, sharpness: f32, index: f32) -> f32 {
@@ -287,6 +292,8 @@ pub fn filtered_2024(view: Vec3, alpha_x: f32, alpha_y: f32, axis: Vec3, sharpne
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::brdf::ggx_local;
+    use crate::brdf::roughness::Roughness;
     use crate::sg::glossy::GlossyView;
 
     fn tilted(cosine: f32, turn: f32) -> Vec3 {
@@ -361,6 +368,62 @@ mod tests {
             0.0,
             "total internal reflection"
         );
+    }
+
+    /// Transmitted radiance of GGX (Walter et al. 2007, Eq. 21, transmittance 1) under a light, by quadrature over visible
+    /// normals: `∫ G₂/G₁ · G(o) D_v dh` with the refracted direction `o` of each.
+    fn refracted_by_quadrature(
+        view: Vec3,
+        alpha: (f32, f32),
+        axis: Vec3,
+        k: f32,
+        index: f32,
+    ) -> f64 {
+        let roughness = Roughness::aligned(alpha.0, alpha.1);
+        let n = 500;
+        let mut sum = 0.0f64;
+        for i in 0..n * n {
+            let (u, v) = ((i % n) as f32 + 0.5, (i / n) as f32 + 0.5);
+            let half =
+                ggx_local::sample_visible_normal(view, roughness, u / n as f32, v / n as f32);
+            let along = view.dot(half);
+            let bent = 1.0 - (1.0 - along * along) / (index * index);
+            if bent <= 0.0 || along <= 0.0 {
+                continue;
+            }
+            let out = half * (along / index - bent.sqrt()) - view / index;
+            if out.z >= 0.0 {
+                continue;
+            }
+            // Separable masking and shadowing.
+            let shadow = 1.0 / (1.0 + f64::from(ggx_local::lambda(out, roughness)));
+            let gap = f64::from((out - axis).length_squared()) * 0.5;
+            sum += shadow * (-f64::from(k) * gap).exp();
+        }
+        sum / f64::from(n * n)
+    }
+
+    #[test]
+    fn refraction_against_quadrature() {
+        // At the refracted view, where the lobe peaks.
+        let (mut sum, mut worst, mut count) = (0.0f64, 0.0f64, 0);
+        for (ax, ay) in [(0.1, 0.1), (0.3, 0.3), (0.5, 0.5), (0.2, 0.5)] {
+            for (index, cosine) in [(1.33f32, 1.0f32), (1.33, 0.5), (1.5, 0.8), (1.0 / 1.5, 0.8)] {
+                let view = tilted(cosine, 0.4);
+                let depth = (1.0 - (1.0 - cosine * cosine) / (index * index)).sqrt();
+                let axis = Vec3::new(-view.x / index, -view.y / index, -depth);
+                let exact = refracted_by_quadrature(view, (ax, ay), axis, 300.0, index);
+                let local = FilteredView::refraction(view, ax, ay, index);
+                let value =
+                    f64::from(local.transmitted_2024(axis, 300.0, index) * lobe::integral(300.0));
+                let error = (value / exact - 1.0).abs();
+                sum += error;
+                worst = worst.max(error);
+                count += 1;
+            }
+        }
+        let mean = sum / f64::from(count);
+        assert!(mean < 0.27 && worst < 0.45, "{mean} {worst}");
     }
 
     #[test]
