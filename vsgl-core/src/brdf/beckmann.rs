@@ -121,7 +121,7 @@ fn towards(beta: f32, goal: f32, cosine: f32, sine: f32, end: f32) -> f32 {
 /// which there would be one in a million. A view below the horizon is raised to it.
 ///
 /// ```
-/// use glam::Vec3;
+/// use vsgl_core::glam::Vec3;
 /// use vsgl_core::brdf::{beckmann, roughness::Roughness};
 /// let roughness = Roughness::rotated(0.4, 0.1, 0.6, 0.8);
 /// let view = Vec3::new(0.6, 0.0, 0.8);

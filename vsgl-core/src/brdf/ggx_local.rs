@@ -61,6 +61,15 @@ pub fn reflectance(view: Vec3, light: Vec3, roughness: Roughness) -> f32 {
 /// [0, 1).
 ///
 /// Unit. In the frame where roughness is 1 the reflections off visible normals fill a spherical cap uniformly.
+///
+/// ```
+/// use vsgl_core::glam::Vec3;
+/// use vsgl_core::brdf::{ggx_local, roughness::Roughness};
+/// let roughness = Roughness::aligned(0.4, 0.1);
+/// let view = Vec3::new(0.6, 0.0, 0.8);
+/// let half = ggx_local::sample_visible_normal(view, roughness, 0.3, 0.7);
+/// assert!(ggx_local::visible_normal_density(view, half, roughness) > 0.0);
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn sample_visible_normal(view: Vec3, roughness: Roughness, u: f32, v: f32) -> Vec3 {

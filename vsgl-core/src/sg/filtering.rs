@@ -274,6 +274,16 @@ impl FilteredView {
 }
 
 /// `∫ f (ω·n) G dω` for a light of peak 1 and Fresnel factor 1 on an anisotropic surface, with masking.
+///
+/// `view` and `axis` are unit vectors in the tangent frame; the result is radiance per radiance at the light's peak.
+///
+/// ```
+/// use vsgl_core::glam::Vec3;
+/// use vsgl_core::sg::filtering;
+/// let (view, mirrored) = (Vec3::new(0.6, 0.0, 0.8), Vec3::new(-0.6, 0.0, 0.8));
+/// let peak = filtering::masked(view, 0.2, 0.1, mirrored, 100.0);
+/// assert!(peak > filtering::masked(view, 0.2, 0.1, view, 100.0));
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn masked(view: Vec3, alpha_x: f32, alpha_y: f32, axis: Vec3, sharpness: f32) -> f32 {
