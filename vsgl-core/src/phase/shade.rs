@@ -10,7 +10,7 @@ use crate::math::elementary::{exp, expm1_over_x};
 use crate::math::vec::normalize;
 use crate::sg::glossy::GlossyView;
 use crate::sg::lobe::SHARPNESS_MAX;
-use crate::sg::{cosine, lobe, vmf, warp};
+use crate::sg::{cosine, extent, lobe, vmf, warp};
 use glam::Vec3;
 
 /// Least positional variance \[m²\]: keeps its inverse finite.
@@ -131,12 +131,8 @@ fn path(position: Vec3, variance: f32, receiver: Vec3) -> Path {
 /// `aᵀ C a` to `variance`.
 #[inline(always)]
 fn sharpness_along(sharpness: f32, variance: f32, covariance: &[f32; 6], direction: Vec3) -> f32 {
-    let [xx, yy, zz, xy, xz, yz] = *covariance;
-    let (x, y, z) = (direction.x, direction.y, direction.z);
-    let squares = xx * (x * x) + yy * (y * y) + zz * (z * z);
-    let crossed = xy * (x * y) + xz * (x * z) + yz * (y * z);
-    // Rounding can leave less than nothing where the cluster is flat.
-    let along = (squares + 2.0 * crossed)
+    // Flat clusters have no extent along their normal.
+    let along = extent::along(covariance, direction)
         .max(1e-12 * variance)
         .max(VARIANCE_MIN);
     (sharpness * (variance / along)).min(SHARPNESS_MAX)

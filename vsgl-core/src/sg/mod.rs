@@ -6,6 +6,7 @@
 
 pub mod asg;
 pub mod cosine;
+pub mod extent;
 pub mod filtering;
 pub mod glossy;
 pub mod glossy_blend;
