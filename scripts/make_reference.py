@@ -63,7 +63,11 @@ def above(k, z, power):
         return TAU * mp.besseli(0, x) * mp.exp(k * (z * u - 1)) * u**power
 
     width = 8 / mp.sqrt(k + 1)
-    points = sorted({mp.mpf(0), mp.mpf(1)} | {min(max(z + width * j, mp.mpf(0)), mp.mpf(1)) for j in range(-3, 4)})
+    inside = lambda u: min(max(u, mp.mpf(0)), mp.mpf(1))
+    # Around the peak; and for an axis below the horizon the decay away from it, over 1/(k |z|).
+    points = {mp.mpf(0), mp.mpf(1)} | {inside(z + width * j) for j in range(-3, 4)}
+    points |= {inside(4**j / (k * abs(z) + 1)) for j in range(-1, 5)}
+    points = sorted(points)
     return mp.quad(ring, points, maxdegree=9)
 
 
