@@ -5,6 +5,12 @@ use glam::Vec3;
 /// `(1 − c)⁵`, the weight of the reflectance at grazing incidence; `cosine` is that between direction and half vector.
 ///
 /// Source: Schlick 1994, "An Inexpensive BRDF Model for Physically-based Rendering".
+///
+/// ```
+/// use glam::Vec3;
+/// use vsgl_core::brdf::fresnel;
+/// assert_eq!((fresnel::schlick_weight(1.0), fresnel::schlick_weight(0.0)), (0.0, 1.0));
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn schlick_weight(cosine: f32) -> f32 {
@@ -14,6 +20,13 @@ pub fn schlick_weight(cosine: f32) -> f32 {
 }
 
 /// `f0 + (f90 − f0) (1 − c)⁵` for each colour.
+///
+/// ```
+/// use glam::Vec3;
+/// use vsgl_core::brdf::fresnel;
+/// let f = fresnel::schlick(Vec3::splat(0.04), Vec3::ONE, 1.0);
+/// assert_eq!(f, Vec3::splat(0.04));
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn schlick(f0: Vec3, f90: Vec3, cosine: f32) -> Vec3 {
@@ -21,6 +34,12 @@ pub fn schlick(f0: Vec3, f90: Vec3, cosine: f32) -> Vec3 {
 }
 
 /// Cosine between `view` and the half vector of `view` and `light`, 0 … 1: `|view + light|/2`.
+///
+/// ```
+/// use glam::Vec3;
+/// use vsgl_core::brdf::fresnel;
+/// assert!((fresnel::half_cosine(Vec3::X, Vec3::Y) - 0.5f32.sqrt()).abs() < 1e-6);
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn half_cosine(view: Vec3, light: Vec3) -> f32 {
@@ -29,6 +48,12 @@ pub fn half_cosine(view: Vec3, light: Vec3) -> f32 {
 }
 
 /// Reflectance at normal incidence of a dielectric with relative index `index`: `((η − 1)/(η + 1))²`.
+///
+/// ```
+/// use glam::Vec3;
+/// use vsgl_core::brdf::fresnel;
+/// assert!((fresnel::f0_of_index(1.5) - 0.04).abs() < 1e-6);
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn f0_of_index(index: f32) -> f32 {

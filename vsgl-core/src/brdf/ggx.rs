@@ -13,6 +13,13 @@ use glam::Vec3;
 /// Density of microfacet normals `D` \[1/sr\] at the direction of `half`, which need not be unit; 0 below the surface.
 ///
 /// `D = α²/(π (sin² + α² cos²)²)` with the angle to the unit `normal`; `alpha` above 0.
+///
+/// ```
+/// use glam::Vec3;
+/// use vsgl_core::brdf::ggx;
+/// let peak = 1.0 / (std::f32::consts::PI * 0.04);
+/// assert!((ggx::distribution(Vec3::Z, Vec3::Z, 0.2) / peak - 1.0).abs() < 1e-5);
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn distribution(half: Vec3, normal: Vec3, alpha: f32) -> f32 {
@@ -28,6 +35,12 @@ pub fn distribution(half: Vec3, normal: Vec3, alpha: f32) -> f32 {
 /// `√(α² + (1 − α²) cos²)`: the projected area of the microsurface's symmetric counterpart; `alpha2` is `α²`.
 ///
 /// `cos (1 + 2Λ)` with Smith's `Λ`; finite and positive at grazing angles where `Λ` is not.
+///
+/// ```
+/// use glam::Vec3;
+/// use vsgl_core::brdf::ggx;
+/// assert_eq!(ggx::reach(1.0, 0.04), 1.0);
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn reach(cosine: f32, alpha2: f32) -> f32 {
@@ -37,6 +50,12 @@ pub fn reach(cosine: f32, alpha2: f32) -> f32 {
 /// Smith's `Λ` at a direction of `cosine` to the normal: `(√(1 + α² tan²) − 1)/2`, written without cancellation.
 ///
 /// Infinite in the limit of grazing directions; the cosine is floored at 1e-9.
+///
+/// ```
+/// use glam::Vec3;
+/// use vsgl_core::brdf::ggx;
+/// assert!(ggx::lambda(1.0, 0.5) < 1e-6 && ggx::lambda(0.1, 0.5) > 1.0);
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn lambda(cosine: f32, alpha: f32) -> f32 {
@@ -50,6 +69,12 @@ pub fn lambda(cosine: f32, alpha: f32) -> f32 {
 ///
 /// `1/(2 (s_v o + s_o v))` with the cosines of view and light and their [`reach`]; finite unless both are grazing, where
 /// it is capped at 1e9.
+///
+/// ```
+/// use glam::Vec3;
+/// use vsgl_core::brdf::ggx;
+/// assert!((ggx::visibility(1.0, 1.0, 0.5) - 0.25).abs() < 1e-6);
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn visibility(view_cosine: f32, light_cosine: f32, alpha: f32) -> f32 {

@@ -59,6 +59,11 @@ fn reduce(x: f32) -> Reduced {
 ///
 /// Zero below [`EXP_ARGUMENT_MIN`], constant above [`EXP_ARGUMENT_MAX`]: always finite, never subnormal, monotone.
 /// Relative error at most 1e-7 between.
+///
+/// ```
+/// use vsgl_core::math::elementary;
+/// assert!((elementary::exp(1.0) - std::f32::consts::E).abs() < 1e-6);
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn exp(x: f32) -> f32 {
@@ -68,6 +73,11 @@ pub fn exp(x: f32) -> f32 {
 }
 
 /// `e^x − 1` without cancellation, relative error at most 1.5e-7. Saturates above [`EXP_ARGUMENT_MAX`] as [`exp`] does.
+///
+/// ```
+/// use vsgl_core::math::elementary;
+/// assert!((elementary::expm1(1e-5) / 1.000005e-5 - 1.0).abs() < 1e-6);
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn expm1(x: f32) -> f32 {
@@ -81,6 +91,11 @@ pub fn expm1(x: f32) -> f32 {
 ///
 /// Near zero this is the polynomial of the reduction itself, so nothing is divided by a small number.
 /// Meant for `x ≤ 0`; saturates above [`EXP_ARGUMENT_MAX`].
+///
+/// ```
+/// use vsgl_core::math::elementary;
+/// assert_eq!(elementary::expm1_over_x(0.0), 1.0);
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn expm1_over_x(x: f32) -> f32 {
@@ -94,6 +109,11 @@ pub fn expm1_over_x(x: f32) -> f32 {
 /// Natural logarithm, relative error at most 1.2e-7 for normal positive `x`.
 ///
 /// Zero, negative and subnormal arguments give `ln 2⁻¹²⁶ ≈ −87.34`: always finite.
+///
+/// ```
+/// use vsgl_core::math::elementary;
+/// assert!((elementary::log(2.0) - std::f32::consts::LN_2).abs() < 1e-6);
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn log(x: f32) -> f32 {
@@ -120,6 +140,11 @@ pub fn log(x: f32) -> f32 {
 ///
 /// One polynomial for the whole range: no exponential and no division. For the complement of large arguments use
 /// [`erfc`], since `1 − erf(x)` has no correct digit beyond 3.7.
+///
+/// ```
+/// use vsgl_core::math::elementary;
+/// assert!((elementary::erf(0.5) - 0.520_499_9).abs() < 1e-6);
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn erf(x: f32) -> f32 {
@@ -165,6 +190,11 @@ fn exp_minus_square(u: f32) -> f32 {
 /// `e^{x²} erfc(x)` is smooth and slowly varying: a polynomial in `(x − 2)/(x + 2)` after division by `1 + 2x`.
 /// Source of that form: Shepherd and Laframboise 1981, "Chebyshev Approximation of (1+2x)exp(x²)erfc x in 0 ≤ x < ∞";
 /// the coefficients are our own, for `f32`.
+///
+/// ```
+/// use vsgl_core::math::elementary;
+/// assert!((elementary::erfc(5.0) / 1.537_46e-12 - 1.0).abs() < 1e-4);
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn erfc(x: f32) -> f32 {

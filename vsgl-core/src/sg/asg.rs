@@ -27,6 +27,14 @@ pub struct AsgLobe {
 
 impl AsgLobe {
     /// Value towards the unit vector `direction`, within 0 … 1.
+    ///
+    /// ```
+    /// use glam::Vec3;
+    /// use vsgl_core::sg::asg;
+    /// let lobe = asg::reflection_lobe(Vec3::Z, Vec3::Z, 100.0);
+    /// assert_eq!(lobe.evaluate(Vec3::Z), 1.0);
+    /// assert_eq!(lobe.evaluate(-Vec3::Z), 0.0);
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn evaluate(self, direction: Vec3) -> f32 {
@@ -42,6 +50,13 @@ impl AsgLobe {
     /// at 1e-6, which keeps two constants finite.
     ///
     /// Source: Xu et al. 2013, "Anisotropic Spherical Gaussians", Eq. 14 and supplement.
+    ///
+    /// ```
+    /// use glam::Vec3;
+    /// use vsgl_core::sg::asg;
+    /// let lobe = asg::reflection_lobe(Vec3::Z, Vec3::Z, 100.0);
+    /// assert!(lobe.product_integral(Vec3::Z, 50.0) > lobe.product_integral(Vec3::new(0.6, 0.0, 0.8), 50.0));
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn product_integral(self, axis: Vec3, sharpness: f32) -> f32 {
@@ -67,6 +82,14 @@ impl AsgLobe {
 /// For GGX and Beckmann the papers take `half_sharpness = 1/α²`; the author's later code `1/α² − 1`.
 ///
 /// Source: Xu et al. 2013, "Anisotropic Spherical Gaussians", section 5; Wang et al. 2009 for the isotropic warp.
+///
+/// ```
+/// use glam::Vec3;
+/// use vsgl_core::sg::asg;
+/// let lobe = asg::reflection_lobe(Vec3::Z, Vec3::Z, 100.0);
+/// // At normal incidence the lobe is round, a quarter as sharp as the normals.
+/// assert!((lobe.sharpness_x - 25.0).abs() < 1e-4 && (lobe.sharpness_y - 25.0).abs() < 1e-4);
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn reflection_lobe(view: Vec3, normal: Vec3, half_sharpness: f32) -> AsgLobe {

@@ -40,6 +40,11 @@ pub const COSINE_SHARPNESS_2015: f32 = 2.0;
 pub const COSINE_SHARPNESS: f32 = 2.292_504;
 
 /// `B` with the axis along the normal \[sr\]: `2π (e^{−κ} − 1 + κ)/κ²`. Exact; π at sharpness 0.
+///
+/// ```
+/// use vsgl_core::sg::cosine;
+/// assert!((cosine::upper(0.0) - std::f32::consts::PI).abs() < 1e-6);
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn upper(sharpness: f32) -> f32 {
@@ -48,6 +53,11 @@ pub fn upper(sharpness: f32) -> f32 {
 
 /// `B` with the axis against the normal \[sr\]: `2π e^{−κ} (1 − e^{−κ} − κ e^{−κ})/κ²`. Exact; π at sharpness 0, and 0
 /// above 87, where it would be below 1e-38.
+///
+/// ```
+/// use vsgl_core::sg::cosine;
+/// assert!(cosine::lower(10.0) < 1e-3 * cosine::upper(10.0));
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn lower(sharpness: f32) -> f32 {
@@ -56,6 +66,12 @@ pub fn lower(sharpness: f32) -> f32 {
 }
 
 /// Logarithm of [`lower`], finite for every sharpness: about `−κ`.
+///
+/// ```
+/// use vsgl_core::sg::cosine;
+/// // Far below what `lower` can hold.
+/// assert!(cosine::log_lower(1e4) < -1e4);
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn log_lower(sharpness: f32) -> f32 {
@@ -67,6 +83,11 @@ pub fn log_lower(sharpness: f32) -> f32 {
 ///
 /// Source: Tokuyoshi 2015, "Virtual Spherical Gaussian Lights for Real-Time Glossy Indirect Illumination" (with `2π/κ`
 /// for `A`).
+///
+/// ```
+/// use vsgl_core::sg::cosine;
+/// assert_eq!(cosine::constant(50.0, -0.1), 0.0);
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn constant(sharpness: f32, cosine: f32) -> f32 {
@@ -77,6 +98,12 @@ pub fn constant(sharpness: f32, cosine: f32) -> f32 {
 ///
 /// Source: Iwasaki et al. 2012, "Interactive Bi-scale Editing of Highly Glossy Materials"; Tokuyoshi 2015, "Fast Indirect
 /// Illumination Using Two Virtual Spherical Gaussian Lights".
+///
+/// ```
+/// use vsgl_core::sg::cosine;
+/// let exact = cosine::interpolated_v13(50.0, 0.8);
+/// assert!((cosine::sg_iwasaki_2012(50.0, 0.8) / exact - 1.0).abs() < 0.2);
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn sg_iwasaki_2012(sharpness: f32, cosine: f32) -> f32 {
@@ -87,6 +114,12 @@ pub fn sg_iwasaki_2012(sharpness: f32, cosine: f32) -> f32 {
 }
 
 /// Clamped cosine as a lobe of sharpness [`COSINE_SHARPNESS_2015`] and integral π, with the exact inner product.
+///
+/// ```
+/// use vsgl_core::sg::cosine;
+/// let exact = cosine::interpolated_v13(50.0, 0.8);
+/// assert!((cosine::sg_product(50.0, 0.8) / exact - 1.0).abs() < 0.2);
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn sg_product(sharpness: f32, cosine: f32) -> f32 {
@@ -115,6 +148,12 @@ fn widened(k: f32, z: f32, wide: f32) -> (f32, f32, f32) {
 /// Two hemispherical integrals of 2018, clamped to zero where their difference is negative. Superseded.
 ///
 /// Source: Meder and Brüderlin 2018, "Hemispherical Gaussians for Accurate Light Integration", section 4.
+///
+/// ```
+/// use vsgl_core::sg::cosine;
+/// let exact = cosine::interpolated_v13(50.0, 0.8);
+/// assert!((cosine::lobes_2018(50.0, 0.8) / exact - 1.0).abs() < 0.03);
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn lobes_2018(sharpness: f32, cosine: f32) -> f32 {
@@ -128,6 +167,12 @@ pub fn lobes_2018(sharpness: f32, cosine: f32) -> f32 {
 ///
 /// The amplitude of 1182 times the difference of nearly equal integrals costs four digits in `f32`.
 /// Source: Tokuyoshi 2022, "Accurate Diffuse Lighting from Spherical Gaussian Lights".
+///
+/// ```
+/// use vsgl_core::sg::cosine;
+/// let exact = cosine::interpolated_v13(50.0, 0.8);
+/// assert!((cosine::lobes_2022(50.0, 0.8) / exact - 1.0).abs() < 0.01);
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn lobes_2022(sharpness: f32, cosine: f32) -> f32 {
@@ -217,6 +262,12 @@ fn factor_v14(k: f32, z: f32) -> f32 {
 ///
 /// `cosine` is `axis·normal`. Error at most 1.53e-3 of [`upper`], never negative.
 /// Source: Tokuyoshi et al. 2024, "Hierarchical Light Sampling with Accurate Spherical Gaussian Lighting", section 5.1.
+///
+/// ```
+/// use vsgl_core::sg::cosine;
+/// let exact = cosine::interpolated_v13(50.0, 0.8);
+/// assert!((cosine::interpolated_2024(50.0, 0.8) / exact - 1.0).abs() < 0.003);
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn interpolated_2024(sharpness: f32, cosine: f32) -> f32 {
@@ -251,6 +302,12 @@ pub fn interpolated_v13(sharpness: f32, cosine: f32) -> f32 {
 /// [`interpolated_v13`], which is the cheaper default.
 ///
 /// Ours, made by `scripts/fit_interpolations.py`.
+///
+/// ```
+/// use vsgl_core::sg::cosine;
+/// let other = cosine::interpolated_v13(50.0, 0.8);
+/// assert!((cosine::interpolated_v14(50.0, 0.8) / other - 1.0).abs() < 1e-3);
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn interpolated_v14(sharpness: f32, cosine: f32) -> f32 {
@@ -269,6 +326,12 @@ pub fn interpolated_v14(sharpness: f32, cosine: f32) -> f32 {
 ///
 /// With the factor rewritten by `∫ erfc`, all its terms below the horizon share `e^{−t²z²}`, which is taken out and given the
 /// exact rate. Ours.
+///
+/// ```
+/// use vsgl_core::sg::cosine;
+/// // The plain form is zero here.
+/// assert!(cosine::log_interpolated(1e4, -0.9) < -1e3);
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn log_interpolated(sharpness: f32, cosine: f32) -> f32 {
@@ -299,6 +362,13 @@ pub fn log_interpolated(sharpness: f32, cosine: f32) -> f32 {
 ///
 /// Within 0 … 1: ¼ at sharpness 0, `max(z, 0)` for a direction. The irradiance of a light of strength `c A(κ)` about
 /// `axis` is that strength times this; error at most 1.3e-4 of the value at cosine 1.
+///
+/// ```
+/// use vsgl_core::sg::cosine;
+/// // A direction, and no direction at all.
+/// assert!((cosine::mean_clamped_cosine(1e9, 0.6) - 0.6).abs() < 1e-4);
+/// assert!((cosine::mean_clamped_cosine(0.0, 0.6) - 0.25).abs() < 1e-4);
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn mean_clamped_cosine(sharpness: f32, cosine: f32) -> f32 {
@@ -309,6 +379,13 @@ pub fn mean_clamped_cosine(sharpness: f32, cosine: f32) -> f32 {
 }
 
 /// The odd half of `B`, exact: `B(z) − B(−z) = z A(κ) L(κ)` \[sr\].
+///
+/// ```
+/// use vsgl_core::sg::cosine;
+/// let (k, z) = (7.0, 0.3);
+/// let difference = cosine::interpolated_v13(k, z) - cosine::interpolated_v13(k, -z);
+/// assert!((difference / cosine::odd_part(k, z) - 1.0).abs() < 1e-4);
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn odd_part(sharpness: f32, cosine: f32) -> f32 {

@@ -18,6 +18,11 @@ use crate::math::elementary::{
 };
 
 /// Integral over the hemisphere about the axis \[sr\]: `2π (1 − e^{−κ})/κ`. Exact; 2π at sharpness 0.
+///
+/// ```
+/// use vsgl_core::sg::hemisphere;
+/// assert!((hemisphere::upper(0.0) - std::f32::consts::TAU).abs() < 1e-5);
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn upper(sharpness: f32) -> f32 {
@@ -26,6 +31,11 @@ pub fn upper(sharpness: f32) -> f32 {
 
 /// Integral over the hemisphere opposite to the axis \[sr\]: `2π e^{−κ} (1 − e^{−κ})/κ`. Exact; 2π at sharpness 0, and 0
 /// above 87, where it would be below 1e-38.
+///
+/// ```
+/// use vsgl_core::sg::hemisphere;
+/// assert!(hemisphere::lower(10.0) < 1e-4 * hemisphere::upper(10.0));
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn lower(sharpness: f32) -> f32 {
@@ -34,6 +44,11 @@ pub fn lower(sharpness: f32) -> f32 {
 }
 
 /// Logarithm of [`lower`], finite for every sharpness: about `−κ`.
+///
+/// ```
+/// use vsgl_core::sg::hemisphere;
+/// assert!((hemisphere::log_lower(2.0) - hemisphere::lower(2.0).ln()).abs() < 1e-5);
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn log_lower(sharpness: f32) -> f32 {
@@ -104,6 +119,12 @@ fn factor_odd(sharpness: f32, cosine: f32) -> f32 {
 ///
 /// `cosine` is `axis·normal`. Error at most 1.25e-2 of the value at cosine 1.
 /// Source: Meder and Brüderlin 2018, "Hemispherical Gaussians for Accurate Light Integration", Eq. 13.
+///
+/// ```
+/// use vsgl_core::sg::hemisphere;
+/// let better = hemisphere::integral(20.0, 0.1);
+/// assert!((hemisphere::integral_2018(20.0, 0.1) / better - 1.0).abs() < 0.03);
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn integral_2018(sharpness: f32, cosine: f32) -> f32 {
@@ -136,6 +157,11 @@ pub fn integral_2022(sharpness: f32, cosine: f32) -> f32 {
 /// within 0 … 1, ½ at cosine 0 or sharpness 0.
 ///
 /// Source: Tokuyoshi et al. 2024, "Hierarchical Light Sampling with Accurate Spherical Gaussian Lighting", section 4.4.
+///
+/// ```
+/// use vsgl_core::sg::hemisphere;
+/// assert!((hemisphere::share_2022(20.0, 0.0) - 0.5).abs() < 1e-6);
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn share_2022(sharpness: f32, cosine: f32) -> f32 {
@@ -164,6 +190,11 @@ pub fn integral(sharpness: f32, cosine: f32) -> f32 {
 }
 
 /// [`integral`] of the normalised lobe, 0 … 1: its share above the horizon.
+///
+/// ```
+/// use vsgl_core::sg::hemisphere;
+/// assert!((hemisphere::share(20.0, 0.3) + hemisphere::share(20.0, -0.3) - 1.0).abs() < 1e-5);
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn share(sharpness: f32, cosine: f32) -> f32 {
@@ -215,6 +246,11 @@ pub fn log_integral(sharpness: f32, cosine: f32) -> f32 {
 }
 
 /// Logarithm of the share above the horizon: [`log_integral`] of the normalised lobe, with its error. At most about 0.
+///
+/// ```
+/// use vsgl_core::sg::hemisphere;
+/// assert!(hemisphere::log_share(1e4, -0.9) < -1e3);
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn log_share(sharpness: f32, cosine: f32) -> f32 {

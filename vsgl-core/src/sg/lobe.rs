@@ -28,6 +28,12 @@ pub struct SgLobe {
 
 impl SgLobe {
     /// The lobe of peak 1 about `axis`, a unit vector; `sharpness` is clamped to 0 … [`SHARPNESS_MAX`].
+    ///
+    /// ```
+    /// use glam::Vec3;
+    /// use vsgl_core::sg::lobe::{self, SgLobe};
+    /// assert_eq!(SgLobe::new(Vec3::Z, f32::INFINITY).sharpness, lobe::SHARPNESS_MAX);
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn new(axis: Vec3, sharpness: f32) -> Self {
@@ -39,6 +45,12 @@ impl SgLobe {
     }
 
     /// Value towards the unit vector `direction`, amplitude included.
+    ///
+    /// ```
+    /// use glam::Vec3;
+    /// use vsgl_core::sg::lobe::{self, SgLobe};
+    /// assert_eq!(SgLobe::new(Vec3::Z, 30.0).evaluate(Vec3::Z), 1.0);
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn evaluate(self, direction: Vec3) -> f32 {
@@ -46,6 +58,12 @@ impl SgLobe {
     }
 
     /// Integral over the sphere, amplitude included \[sr\].
+    ///
+    /// ```
+    /// use glam::Vec3;
+    /// use vsgl_core::sg::lobe::{self, SgLobe};
+    /// assert_eq!(SgLobe::new(Vec3::Z, 30.0).integral(), lobe::integral(30.0));
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn integral(self) -> f32 {
@@ -53,6 +71,13 @@ impl SgLobe {
     }
 
     /// Logarithm of [`SgLobe::integral`], finite where the integral underflows.
+    ///
+    /// ```
+    /// use glam::Vec3;
+    /// use vsgl_core::sg::lobe::{self, SgLobe};
+    /// let a = SgLobe::new(Vec3::Z, 30.0);
+    /// assert!((a.log_integral() - a.integral().ln()).abs() < 1e-5);
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn log_integral(self) -> f32 {
@@ -61,6 +86,12 @@ impl SgLobe {
 }
 
 /// Value `exp(sharpness (direction·axis − 1))` of the lobe of peak 1, within (0, 1], by way of `|direction − axis|²`.
+///
+/// ```
+/// use glam::Vec3;
+/// use vsgl_core::sg::lobe::{self, SgLobe};
+/// assert!((lobe::evaluate(Vec3::Z, 2.0, Vec3::X) - (-2.0f32).exp()).abs() < 1e-6);
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn evaluate(axis: Vec3, sharpness: f32, direction: Vec3) -> f32 {
@@ -83,6 +114,12 @@ pub fn integral(sharpness: f32) -> f32 {
 }
 
 /// Logarithm of [`integral`].
+///
+/// ```
+/// use glam::Vec3;
+/// use vsgl_core::sg::lobe::{self, SgLobe};
+/// assert!((lobe::log_integral(30.0) - lobe::integral(30.0).ln()).abs() < 1e-5);
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn log_integral(sharpness: f32) -> f32 {
@@ -94,6 +131,12 @@ pub fn log_integral(sharpness: f32) -> f32 {
 /// Relative error `e^{−2κ}`: 1.8 % at 2, 4.5e-5 at 5. Above 4π for sharpness below ½, where it must not be used; the
 /// sharpness is raised to 1e-30 to stay finite.
 /// Source: Iwasaki et al. 2012, "Interactive Bi-scale Editing of Highly Glossy Materials".
+///
+/// ```
+/// use glam::Vec3;
+/// use vsgl_core::sg::lobe::{self, SgLobe};
+/// assert!((lobe::integral_sharp(50.0) / lobe::integral(50.0) - 1.0).abs() < 1e-6);
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn integral_sharp(sharpness: f32) -> f32 {
@@ -149,6 +192,13 @@ pub fn product(a_axis: Vec3, a_sharpness: f32, b_axis: Vec3, b_sharpness: f32) -
 /// Sharpness and logarithm of the amplitude of [`product`], from the squared chord `|ξ_a − ξ_b|²` of the axes, 0 … 4.
 ///
 /// For axes known by the angle between them; both results keep their relative accuracy up to opposite axes.
+///
+/// ```
+/// use glam::Vec3;
+/// use vsgl_core::sg::lobe::{self, SgLobe};
+/// // Equal axes: the sharpnesses add, nothing is lost.
+/// assert_eq!(lobe::product_by_chord(3.0, 5.0, 0.0), (8.0, 0.0));
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn product_by_chord(a_sharpness: f32, b_sharpness: f32, chord2: f32) -> (f32, f32) {
@@ -164,6 +214,13 @@ pub fn product_by_chord(a_sharpness: f32, b_sharpness: f32, chord2: f32) -> (f32
 }
 
 /// `∫ G_a G_b dω` over the sphere \[sr\]: `e^{log_amplitude} A(sharpness)` of the product.
+///
+/// ```
+/// use glam::Vec3;
+/// use vsgl_core::sg::lobe::{self, SgLobe};
+/// let same = lobe::inner_product(Vec3::Z, 3.0, Vec3::Z, 5.0);
+/// assert!((same / lobe::integral(8.0) - 1.0).abs() < 1e-6);
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn inner_product(a_axis: Vec3, a_sharpness: f32, b_axis: Vec3, b_sharpness: f32) -> f32 {
@@ -171,6 +228,13 @@ pub fn inner_product(a_axis: Vec3, a_sharpness: f32, b_axis: Vec3, b_sharpness: 
 }
 
 /// Logarithm of [`inner_product`], finite where the integral underflows.
+///
+/// ```
+/// use glam::Vec3;
+/// use vsgl_core::sg::lobe::{self, SgLobe};
+/// // The inner product itself underflows.
+/// assert!(lobe::log_inner_product(Vec3::Z, 1e4, -Vec3::Z, 1e4) < -1e4);
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn log_inner_product(a_axis: Vec3, a_sharpness: f32, b_axis: Vec3, b_sharpness: f32) -> f32 {
@@ -182,6 +246,13 @@ pub fn log_inner_product(a_axis: Vec3, a_sharpness: f32, b_axis: Vec3, b_sharpne
 /// Overestimates when the sum of the sharpnesses is not large, and ignores how the product's sharpness depends on the
 /// angle between the axes.
 /// Source: Iwasaki et al. 2012, "Interactive Bi-scale Editing of Highly Glossy Materials".
+///
+/// ```
+/// use glam::Vec3;
+/// use vsgl_core::sg::lobe::{self, SgLobe};
+/// let exact = lobe::inner_product(Vec3::Z, 300.0, Vec3::Z, 500.0);
+/// assert!((lobe::inner_product_sharp(Vec3::Z, 300.0, Vec3::Z, 500.0) / exact - 1.0).abs() < 1e-3);
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn inner_product_sharp(a_axis: Vec3, a_sharpness: f32, b_axis: Vec3, b_sharpness: f32) -> f32 {

@@ -28,6 +28,11 @@ impl MeanLength {
 
     /// From a length alone. The complement is exact for the given `f32`, but has the error of whatever rounded it: fine
     /// up to a sharpness of about 1000.
+    ///
+    /// ```
+    /// use vsgl_core::sg::vmf::{self, MeanLength};
+    /// assert_eq!(MeanLength::from_length(0.75).complement, 0.25);
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn from_length(length: f32) -> Self {
@@ -39,6 +44,12 @@ impl MeanLength {
     }
 
     /// Mean length of the convolution of two lobes: the lengths multiply (exact for rotationally symmetric lobes).
+    ///
+    /// ```
+    /// use vsgl_core::sg::vmf::{self, MeanLength};
+    /// let blurred = vmf::mean(100.0).convolve(vmf::mean(100.0));
+    /// assert!((vmf::sharpness(blurred) / 50.0 - 1.0).abs() < 0.02);
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn convolve(self, other: Self) -> Self {
@@ -53,6 +64,11 @@ impl MeanLength {
 /// Mean length of a lobe: `r = coth κ − 1/κ` and `1 − r`.
 ///
 /// `κ/3` for small, `1 − 1/κ` for large sharpness. Relative error of both at most 3e-7.
+///
+/// ```
+/// use vsgl_core::sg::vmf::{self, MeanLength};
+/// assert!((vmf::mean(1e6).complement * 1e6 - 1.0).abs() < 1e-5);
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn mean(sharpness: f32) -> MeanLength {
@@ -86,6 +102,11 @@ pub fn mean(sharpness: f32) -> MeanLength {
 }
 
 /// Length of the mean vector of a lobe: `coth κ − 1/κ`, see [`mean`].
+///
+/// ```
+/// use vsgl_core::sg::vmf::{self, MeanLength};
+/// assert!((vmf::mean_length(0.003) - 0.001).abs() < 1e-8);
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn mean_length(sharpness: f32) -> f32 {
@@ -93,6 +114,11 @@ pub fn mean_length(sharpness: f32) -> f32 {
 }
 
 /// `1 − mean_length` without cancellation, see [`mean`].
+///
+/// ```
+/// use vsgl_core::sg::vmf::{self, MeanLength};
+/// assert!((vmf::mean_length_complement(1e6) * 1e6 - 1.0).abs() < 1e-5);
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn mean_length_complement(sharpness: f32) -> f32 {
@@ -127,6 +153,11 @@ pub fn sharpness(mean: MeanLength) -> f32 {
 /// Sharpness of the lobe with a given mean length, to rounding: [`sharpness`] and one Newton step.
 ///
 /// Relative error at most 1e-6.
+///
+/// ```
+/// use vsgl_core::sg::vmf::{self, MeanLength};
+/// assert!((vmf::sharpness_exact(vmf::mean(7.0)) / 7.0 - 1.0).abs() < 2e-6);
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn sharpness_exact(mean_length: MeanLength) -> f32 {
@@ -156,6 +187,11 @@ pub fn sharpness_exact(mean_length: MeanLength) -> f32 {
 /// `κ_a → ∞` (within 6e-5). The convolution is not itself a spherical Gaussian; this is the one of equal mean.
 ///
 /// Source: Mardia and Jupp 2000, "Directional Statistics", section 9.3 (mean lengths of convolutions multiply).
+///
+/// ```
+/// use vsgl_core::sg::vmf::{self, MeanLength};
+/// assert!((vmf::convolve(1000.0, 500.0) / 333.3 - 1.0).abs() < 0.01);
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn convolve(a: f32, b: f32) -> f32 {
@@ -163,6 +199,12 @@ pub fn convolve(a: f32, b: f32) -> f32 {
 }
 
 /// [`convolve`] where the mean length of one lobe is at hand, as for a light that is seen from many points.
+///
+/// ```
+/// use vsgl_core::sg::vmf::{self, MeanLength};
+/// let normals = vmf::mean(40.0);
+/// assert!((vmf::convolve_with(normals, 10.0) / vmf::convolve(40.0, 10.0) - 1.0).abs() < 1e-6);
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn convolve_with(a: MeanLength, b: f32) -> f32 {
@@ -173,6 +215,11 @@ pub fn convolve_with(a: MeanLength, b: f32) -> f32 {
 ///
 /// With this map a clamped cosine (normalised, as the diffuse lobe of a light) is best matched by a sharpness of 2.2925.
 /// Source: Banerjee et al. 2005, "Clustering on the Unit Hypersphere using von Mises-Fisher Distributions", Eq. 4.4.
+///
+/// ```
+/// use vsgl_core::sg::vmf::{self, MeanLength};
+/// assert!((vmf::sharpness_banerjee_2005(vmf::mean(7.0)) / 7.0 - 1.0).abs() < 0.06);
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn sharpness_banerjee_2005(mean: MeanLength) -> f32 {
@@ -185,6 +232,12 @@ pub fn sharpness_banerjee_2005(mean: MeanLength) -> f32 {
 ///
 /// Newton's method, on the length below sharpness 1 and on the complement above: no trigonometry, no cancellation.
 /// Relative error of both fields at most 5e-7.
+///
+/// ```
+/// use vsgl_core::sg::vmf::{self, MeanLength};
+/// let k = vmf::sharpness_banerjee_2005(vmf::mean_banerjee_2005(7.0));
+/// assert!((k / 7.0 - 1.0).abs() < 1e-5);
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn mean_banerjee_2005(sharpness: f32) -> MeanLength {
@@ -217,6 +270,11 @@ pub fn mean_banerjee_2005(sharpness: f32) -> MeanLength {
 ///
 /// Three times too large for wide lobes. Consistent with a sharpness of 2 for the clamped cosine.
 /// Source: Toksvig 2005, "Mipmapping Normal Maps".
+///
+/// ```
+/// use vsgl_core::sg::vmf::{self, MeanLength};
+/// assert_eq!(vmf::sharpness_toksvig_2005(MeanLength::from_length(0.75)), 3.0);
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn sharpness_toksvig_2005(mean: MeanLength) -> f32 {
@@ -224,6 +282,11 @@ pub fn sharpness_toksvig_2005(mean: MeanLength) -> f32 {
 }
 
 /// The mean length that [`sharpness_toksvig_2005`] maps to `sharpness`: `r = κ/(κ + 1)`.
+///
+/// ```
+/// use vsgl_core::sg::vmf::{self, MeanLength};
+/// assert_eq!(vmf::mean_toksvig_2005(3.0).length, 0.75);
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn mean_toksvig_2005(sharpness: f32) -> MeanLength {

@@ -13,6 +13,14 @@ use crate::brdf::ggx;
 use crate::math::vec::{normalize, reflect};
 
 /// Sharpness `2/α²` of the lobe that stands for an isotropic distribution of normals.
+///
+/// ```
+/// use glam::Vec3;
+/// use vsgl_core::sg::{glossy, warp};
+/// let view = Vec3::new(0.6, 0.0, 0.8);
+/// let light = Vec3::new(-0.6, 0.0, 0.8);
+/// assert!((warp::normal_sharpness(0.1) - 200.0).abs() < 0.01);
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn normal_sharpness(alpha: f32) -> f32 {
@@ -23,6 +31,14 @@ pub fn normal_sharpness(alpha: f32) -> f32 {
 /// `4 |view·normal|` (floored at 1e-4 of a right angle's cosine).
 ///
 /// Source: Wang et al. 2009, "All-Frequency Rendering of Dynamic, Spatially-Varying Reflectance".
+///
+/// ```
+/// use glam::Vec3;
+/// use vsgl_core::sg::{glossy, warp};
+/// let view = Vec3::new(0.6, 0.0, 0.8);
+/// let light = Vec3::new(-0.6, 0.0, 0.8);
+/// assert!(warp::reflection_sg(view, Vec3::Z, 0.2).axis.dot(light) > 0.999);
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn reflection_sg(view: Vec3, normal: Vec3, alpha: f32) -> SgLobe {
@@ -39,6 +55,14 @@ pub fn reflection_sg(view: Vec3, normal: Vec3, alpha: f32) -> SgLobe {
 /// diagonalised. `view` is a unit vector in that frame; its cosine is floored at 1e-4.
 ///
 /// Source: Xu et al. 2013, "Anisotropic Spherical Gaussians", section 5; the 2×2 eigenproblem without trigonometry is ours.
+///
+/// ```
+/// use glam::Vec3;
+/// use vsgl_core::sg::{glossy, warp};
+/// let view = Vec3::new(0.6, 0.0, 0.8);
+/// let light = Vec3::new(-0.6, 0.0, 0.8);
+/// assert!(warp::reflection_asg_local(view, 0.1, 0.3).z.dot(light) > 0.999);
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn reflection_asg_local(view: Vec3, alpha_x: f32, alpha_y: f32) -> AsgLobe {
@@ -105,6 +129,15 @@ pub fn reflection_asg_local(view: Vec3, alpha_x: f32, alpha_y: f32) -> AsgLobe {
 ///
 /// Source: Xu et al. 2013, "Anisotropic Spherical Gaussians"; Tokuyoshi 2015, "Fast Indirect Illumination Using Two Virtual
 /// Spherical Gaussian Lights", supplement, section 3.2 (the axis; the paper of 2016 takes the light's own).
+///
+/// ```
+/// use glam::Vec3;
+/// use vsgl_core::sg::{glossy, warp};
+/// let view = Vec3::new(0.6, 0.0, 0.8);
+/// let light = Vec3::new(-0.6, 0.0, 0.8);
+/// let ours = glossy::masked(view, Vec3::Z, 0.2, light, 200.0);
+/// assert!((warp::glossy_asg_2015(view, Vec3::Z, 0.2, light, 200.0) / ours - 1.0).abs() < 0.3);
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn glossy_asg_2015(view: Vec3, normal: Vec3, alpha: f32, axis: Vec3, sharpness: f32) -> f32 {
@@ -118,6 +151,15 @@ pub fn glossy_asg_2015(view: Vec3, normal: Vec3, alpha: f32, axis: Vec3, sharpne
 ///
 /// Source: Tokuyoshi 2016, "Modified Filtered Importance Sampling for Virtual Spherical Gaussian Lights", supplement,
 /// section C.2.
+///
+/// ```
+/// use glam::Vec3;
+/// use vsgl_core::sg::{glossy, warp};
+/// let view = Vec3::new(0.6, 0.0, 0.8);
+/// let light = Vec3::new(-0.6, 0.0, 0.8);
+/// let ours = glossy::masked(view, Vec3::Z, 0.2, light, 200.0);
+/// assert!((warp::glossy_asg_2016(view, Vec3::Z, 0.2, light, 200.0) / ours - 1.0).abs() < 0.3);
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn glossy_asg_2016(view: Vec3, normal: Vec3, alpha: f32, axis: Vec3, sharpness: f32) -> f32 {
@@ -137,6 +179,15 @@ fn rest(view: Vec3, normal: Vec3, alpha: f32, light: Vec3) -> f32 {
 /// `∫ f (ω·n) G dω` with the normalised isotropic lobe of [`reflection_sg`] in place of the reflectance.
 ///
 /// Source: Tokuyoshi 2015, "Fast Indirect Illumination Using Two Virtual Spherical Gaussian Lights", Eq. 2.
+///
+/// ```
+/// use glam::Vec3;
+/// use vsgl_core::sg::{glossy, warp};
+/// let view = Vec3::new(0.6, 0.0, 0.8);
+/// let light = Vec3::new(-0.6, 0.0, 0.8);
+/// let ours = glossy::masked(view, Vec3::Z, 0.2, light, 200.0);
+/// assert!((warp::glossy_sg_2015(view, Vec3::Z, 0.2, light, 200.0) / ours - 1.0).abs() < 0.5);
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn glossy_sg_2015(view: Vec3, normal: Vec3, alpha: f32, axis: Vec3, sharpness: f32) -> f32 {
