@@ -12,6 +12,7 @@ use std::f32::consts::PI;
 use glam::Vec3;
 
 use super::roughness::Roughness;
+use super::visible;
 use crate::math::elementary::{INV_SQRT_PI, erf, erfc, erfc_integral, erfc_inverse, exp, log};
 use crate::math::vec::normalize;
 
@@ -162,8 +163,8 @@ pub fn sample_visible_normal(view: Vec3, roughness: Roughness, u: f32, v: f32) -
 #[inline(always)]
 #[must_use]
 pub fn visible_normal_density(view: Vec3, half: Vec3, roughness: Roughness) -> f32 {
-    let area = view.z + projected_area(view, roughness);
-    distribution(half, roughness) * view.dot(half).max(0.0) * (2.0 / area.max(1e-18))
+    let d = distribution(half, roughness);
+    visible::normal_density(d, view.dot(half), view.z, projected_area(view, roughness))
 }
 
 /// Density \[1/sr\] of the reflection of `view` off [`sample_visible_normal`] at the unit vector `light`:
@@ -171,20 +172,19 @@ pub fn visible_normal_density(view: Vec3, half: Vec3, roughness: Roughness) -> f
 #[inline(always)]
 #[must_use]
 pub fn reflected_density(view: Vec3, light: Vec3, roughness: Roughness) -> f32 {
-    let area = view.z + projected_area(view, roughness);
-    distribution(view + light, roughness) * (0.5 / area.max(1e-18))
+    let d = distribution(view + light, roughness);
+    visible::reflected_density(d, view.z, projected_area(view, roughness))
 }
 
 /// `f cos / density` of a reflection drawn by [`sample_visible_normal`], Fresnel factor 1: `G₂/G₁`, within 0 … 1.
 #[inline(always)]
 #[must_use]
 pub fn sample_weight(view: Vec3, light: Vec3, roughness: Roughness) -> f32 {
-    let (v, o) = (view.z.max(0.0), light.z.max(0.0));
-    let (sv, so) = (
+    let (view_area, light_area) = (
         projected_area(view, roughness),
         projected_area(light, roughness),
     );
-    (o * (v + sv) / (o * sv + so * v).max(1e-30)).min(1.0)
+    visible::sample_weight(view.z, light.z, view_area, light_area)
 }
 
 #[cfg(test)]

@@ -7,3 +7,4 @@ pub mod ggx;
 pub mod ggx_local;
 pub mod gltf;
 pub mod roughness;
+mod visible;
