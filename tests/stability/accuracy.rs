@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 use vsgl_cli::commands::lobe;
+use vsgl_tests::assets::assets;
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
@@ -31,12 +32,8 @@ fn errors_are_as_stated() {
 
 #[test]
 fn errors_are_as_stated_on_further_tables() {
-    match std::env::var_os("VSGL_ASSETS") {
-        Some(assets) => assert_eq!(
-            judge(&Path::new(&assets).join("reference")),
-            Vec::<String>::new()
-        ),
-        None => eprintln!("skipped 1 test: VSGL_ASSETS does not name the folder of further tables"),
+    if let Some(tables) = assets("reference", "further tables of exact values") {
+        assert_eq!(judge(&tables), Vec::<String>::new());
     }
 }
 
