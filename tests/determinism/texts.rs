@@ -220,9 +220,7 @@ pub(crate) fn cluster(random: &mut Random) -> (DiffuseVsgl, SpecularVsgl) {
         position: position(random).to_array(),
         variance,
         axis: direction(random),
-        sharpness: number(random, &SHARPNESSES, 0.1, 100.0),
         mirror: direction(random),
-        sharpness_mirror: number(random, &SHARPNESSES, 0.1, 100.0),
         light: direction(random),
         sharpness_lobe: number(random, &SHARPNESSES, 0.1, 100.0),
         f0: color(random),
@@ -232,6 +230,7 @@ pub(crate) fn cluster(random: &mut Random) -> (DiffuseVsgl, SpecularVsgl) {
         covariance: covariance(random, variance),
         complement_mirror: number(random, &[0.0, 1e-12, 1.0], 0.0, 1.0),
         bulge: random.between(-0.2, 0.2) * variance.sqrt(),
+        padding: [0.0; 2],
     };
     (diffuse, specular)
 }

@@ -191,11 +191,7 @@ pub fn sample_weight(view: Vec3, light: Vec3, roughness: Roughness) -> f32 {
 mod tests {
     use super::*;
     use crate::math::vec::reflect;
-
-    fn tilted(cosine: f32, turn: f32) -> Vec3 {
-        let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
-        Vec3::new(sine * turn.cos(), sine * turn.sin(), cosine)
-    }
+    use crate::math::vec::tilted;
 
     /// Sum of `f(normal, density)` over a grid of slopes, in units of probability.
     fn over_normals(view: Vec3, roughness: Roughness, mut f: impl FnMut(Vec3, f64)) {

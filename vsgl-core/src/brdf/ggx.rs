@@ -105,11 +105,7 @@ pub fn reflectance(view: Vec3, light: Vec3, normal: Vec3, alpha: f32) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    fn tilted(cosine: f32, turn: f32) -> Vec3 {
-        let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
-        Vec3::new(sine * turn.cos(), sine * turn.sin(), cosine)
-    }
+    use crate::math::vec::tilted;
 
     #[test]
     fn projected_normals_integrate_to_one() {

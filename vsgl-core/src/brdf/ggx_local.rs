@@ -121,11 +121,7 @@ mod tests {
     use super::*;
     use crate::brdf::ggx;
     use crate::math::vec::reflect;
-
-    fn tilted(cosine: f32, turn: f32) -> Vec3 {
-        let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
-        Vec3::new(sine * turn.cos(), sine * turn.sin(), cosine)
-    }
+    use crate::math::vec::tilted;
 
     #[test]
     fn isotropic_agrees_with_world_space() {

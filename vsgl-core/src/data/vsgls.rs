@@ -71,12 +71,12 @@ pub struct SpecularVsgl {
     pub variance: f32,
     /// Mean normal direction, unit.
     pub axis: [f32; 3],
-    /// Sharpness of the distribution of normals.
-    pub sharpness: f32,
+    /// One minus the mean length of the normals.
+    pub complement: f32,
     /// Mean mirrored direction of the light, unit.
     pub mirror: [f32; 3],
-    /// Sharpness of the mirrored directions alone.
-    pub sharpness_mirror: f32,
+    /// One minus the mean length of the mirrored directions alone.
+    pub complement_mirror: f32,
     /// Unit direction to the light.
     pub light: [f32; 3],
     /// Sharpness of the mirrored directions blurred by the lobe of the surface.
@@ -87,14 +87,12 @@ pub struct SpecularVsgl {
     pub alpha: f32,
     /// Arriving flux times `F90` \[W\].
     pub f90: [f32; 3],
-    /// One minus the vMF mean length of `sharpness`.
-    pub complement: f32,
-    /// Covariance of positions, xx yy zz xy xz yz \[m²\].
-    pub covariance: [f32; 6],
-    /// One minus the vMF mean length of `sharpness_mirror`.
-    pub complement_mirror: f32,
     /// As [`DiffuseVsgl::bulge`] \[m\].
     pub bulge: f32,
+    /// Covariance of positions, xx yy zz xy xz yz \[m²\].
+    pub covariance: [f32; 6],
+    /// Zero; they keep the record a multiple of 16 bytes.
+    pub padding: [f32; 2],
 }
 
 /// A real point of a cluster's surface, drawn by weight: the mean of a curved cluster lies inside the object.

@@ -56,6 +56,13 @@ pub fn luminance(rgb: Vec3) -> f32 {
     rgb.dot(Vec3::new(0.2126, 0.7152, 0.0722))
 }
 
+/// A unit vector at `cosine` to +z, turned by `turn` \[rad\] about it, for tests.
+#[cfg(test)]
+pub(crate) fn tilted(cosine: f32, turn: f32) -> Vec3 {
+    let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
+    Vec3::new(sine * turn.cos(), sine * turn.sin(), cosine)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

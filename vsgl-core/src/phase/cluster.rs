@@ -297,18 +297,17 @@ fn specular_cosine(sum: &Sum, map: &MapRecord, plan: &ClusterPlan) -> SpecularVs
         position: part.position.mean.to_array(),
         variance,
         axis: axis.to_array(),
-        sharpness: sharpness_of(mean, plan.sharpness),
+        complement: mean.complement,
         mirror: mirror.to_array(),
-        sharpness_mirror: sharpness_of(mean_mirror, plan.sharpness),
+        complement_mirror: mean_mirror.complement,
         light: to_light(map, part.position.mean),
         sharpness_lobe: sharpness_of(lobe, plan.sharpness),
         f0: sum.f0.to_array(),
         alpha: (sum.alpha2 / part.weight).sqrt(),
         f90: sum.f90.to_array(),
-        covariance,
-        complement: mean.complement,
-        complement_mirror: mean_mirror.complement,
         bulge: bulge_of(part, mean.length, variance),
+        covariance,
+        padding: [0.0; 2],
     }
 }
 

@@ -304,12 +304,8 @@ mod tests {
     use super::*;
     use crate::brdf::ggx_local;
     use crate::brdf::roughness::Roughness;
+    use crate::math::vec::tilted;
     use crate::sg::glossy::GlossyView;
-
-    fn tilted(cosine: f32, turn: f32) -> Vec3 {
-        let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
-        Vec3::new(sine * turn.cos(), sine * turn.sin(), cosine)
-    }
 
     fn over_the_sphere(f: impl Fn(Vec3) -> f32) -> f64 {
         let (rows, columns) = (800, 800);

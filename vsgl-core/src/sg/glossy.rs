@@ -287,11 +287,7 @@ pub fn filtered_2024(view: Vec3, normal: Vec3, alpha: f32, axis: Vec3, sharpness
 mod tests {
     use super::*;
     use crate::math::vec::normalize;
-
-    fn tilted(cosine: f32, turn: f32) -> Vec3 {
-        let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
-        Vec3::new(sine * turn.cos(), sine * turn.sin(), cosine)
-    }
+    use crate::math::vec::tilted;
 
     #[test]
     fn density_integrates_to_one() {
