@@ -1,0 +1,3 @@
+//! The GPU backend of vsgl: the texts of `vsgl-core` again, in WGSL.
+
+pub use wgpu;
