@@ -21,6 +21,8 @@
 //! Units are SI; directions are unit vectors away from the surface, `view` to the eye and `light` to the light.
 
 pub mod brdf;
+#[doc(hidden)]
+pub mod constants;
 pub mod math;
 pub mod sg;
 

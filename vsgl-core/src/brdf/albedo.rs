@@ -3,6 +3,54 @@
 use glam::Vec3;
 
 use super::ggx;
+use crate::math::polynomial::horner;
+
+/// Numerator of the loss: coefficients of `p` as polynomials in roughness, from the constant up.
+const ALBEDO_ABOVE_0: [f32; 4] = [2.380_291_4e-2, -5.420_340_6e-2, 3.647_007e-2, -4.340_96e-3];
+
+const ALBEDO_ABOVE_1: [f32; 3] = [0.690_236_3, 0.175_009_1, 0.197_991_46];
+
+const ALBEDO_ABOVE_2: [f32; 2] = [-0.274_850_22, 7.652_091e-3];
+
+const ALBEDO_ABOVE_3: f32 = -0.199_871_32;
+
+/// Denominator of the loss.
+const ALBEDO_BELOW_0: [f32; 3] = [0.576_382_4, -1.289_446_2, 1.0];
+
+const ALBEDO_BELOW_1: [f32; 2] = [1.305_199_4, 0.229_110_51];
+
+const ALBEDO_BELOW_2: f32 = -0.966_559_6;
+
+/// Effective cosine: coefficients of `pⁱ rʲ` as polynomials in `s`.
+const EFFECTIVE_00: [f32; 4] = [-0.387_809_1, 0.147_051_95, 1.290_437_3, -7.341_055_7e-3];
+
+const EFFECTIVE_01: [f32; 3] = [1.309_804_7, -0.459_051_45, 0.325_711_5];
+
+const EFFECTIVE_02: [f32; 2] = [-0.881_692_5, -0.157_153_23];
+
+const EFFECTIVE_03: f32 = -0.716_228;
+
+const EFFECTIVE_10: [f32; 3] = [1.150_085_1e-2, -3.827_944_8e-2, 5.692_958e-3];
+
+const EFFECTIVE_11: [f32; 2] = [-0.370_475_86, -0.273_857_84];
+
+const EFFECTIVE_12: f32 = 0.989_525;
+
+const EFFECTIVE_20: [f32; 2] = [-0.245_802_66, 1.292_970_2e-2];
+
+const EFFECTIVE_21: f32 = -3.698_079_7e-2;
+
+const EFFECTIVE_30: f32 = -1.249_554_9e-2;
+
+crate::constants::shared!(
+    scalars: [
+        ALBEDO_ABOVE_3, ALBEDO_BELOW_2, EFFECTIVE_03, EFFECTIVE_12, EFFECTIVE_21, EFFECTIVE_30,
+    ],
+    polynomials: [
+        ALBEDO_ABOVE_0, ALBEDO_ABOVE_1, ALBEDO_ABOVE_2, ALBEDO_BELOW_0, ALBEDO_BELOW_1,
+        EFFECTIVE_00, EFFECTIVE_01, EFFECTIVE_02, EFFECTIVE_10, EFFECTIVE_11, EFFECTIVE_20,
+    ]
+);
 
 /// Albedo for Schlick's Fresnel `f0 + (f90 − f0)(1 − c)⁵` as `f0 · a + f90 · b`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,26 +96,25 @@ pub fn ggx_albedo(cosine: f32, alpha: f32) -> Albedo {
     let r = alpha.sqrt();
 
     // Nested Horner: inner polynomials in alpha, outer in p.
-    let above_0 =
-        ((2.380_291_4e-2 * alpha - 5.420_340_6e-2) * alpha + 3.647_007e-2) * alpha - 4.340_96e-3;
-    let above_1 = (0.690_236_3 * alpha + 0.175_009_1) * alpha + 0.197_991_46;
-    let above_2 = -0.274_850_22 * alpha + 7.652_091e-3;
-    let above = ((-0.199_871_32 * p + above_2) * p + above_1) * p + above_0;
-    let below_0 = (0.576_382_4 * alpha - 1.289_446_2) * alpha + 1.0;
-    let below_1 = 1.305_199_4 * alpha + 0.229_110_51;
-    let below = (-0.966_559_6 * p + below_1) * p + below_0;
+    let above_0 = horner(ALBEDO_ABOVE_0, alpha);
+    let above_1 = horner(ALBEDO_ABOVE_1, alpha);
+    let above_2 = horner(ALBEDO_ABOVE_2, alpha);
+    let above = ((ALBEDO_ABOVE_3 * p + above_2) * p + above_1) * p + above_0;
+    let below_0 = horner(ALBEDO_BELOW_0, alpha);
+    let below_1 = horner(ALBEDO_BELOW_1, alpha);
+    let below = (ALBEDO_BELOW_2 * p + below_1) * p + below_0;
     let total = (1.0 - above / below).clamp(0.0, 1.0);
 
     // Polynomial of degree 3 in (p, r, s): innermost in s, then r, outermost p.
-    let c00 = ((-0.387_809_1 * s + 0.147_051_95) * s + 1.290_437_3) * s - 7.341_055_7e-3;
-    let c01 = (1.309_804_7 * s - 0.459_051_45) * s + 0.325_711_5;
-    let c02 = -0.881_692_5 * s - 0.157_153_23;
-    let c0 = ((-0.716_228 * r + c02) * r + c01) * r + c00;
-    let c10 = (1.150_085_1e-2 * s - 3.827_944_8e-2) * s + 5.692_958e-3;
-    let c11 = -0.370_475_86 * s - 0.273_857_84;
-    let c1 = (0.989_525 * r + c11) * r + c10;
-    let c2 = -3.698_079_7e-2 * r + (-0.245_802_66 * s + 1.292_970_2e-2);
-    let effective = ((-1.249_554_9e-2 * p + c2) * p + c1) * p + c0;
+    let c00 = horner(EFFECTIVE_00, s);
+    let c01 = horner(EFFECTIVE_01, s);
+    let c02 = horner(EFFECTIVE_02, s);
+    let c0 = ((EFFECTIVE_03 * r + c02) * r + c01) * r + c00;
+    let c10 = horner(EFFECTIVE_10, s);
+    let c11 = horner(EFFECTIVE_11, s);
+    let c1 = (EFFECTIVE_12 * r + c11) * r + c10;
+    let c2 = EFFECTIVE_21 * r + horner(EFFECTIVE_20, s);
+    let effective = ((EFFECTIVE_30 * p + c2) * p + c1) * p + c0;
     let bend = 1.0 - effective.clamp(0.0, 1.0);
     let square = bend * bend;
     let b = total * (square * square * bend);

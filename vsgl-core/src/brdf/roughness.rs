@@ -3,6 +3,8 @@
 /// Least determinant, so that quotients stay finite.
 const DETERMINANT_MIN: f32 = 1.175_494_4e-38;
 
+crate::constants::shared!(scalars: [DETERMINANT_MIN], polynomials: []);
+
 /// A symmetric positive roughness matrix `A` in the tangent plane; `diag(α_x², α_y²)` along its own axes.
 ///
 /// Slopes of the microsurface have covariance `A/2` (Beckmann) or scale like `A^{1/2}` (GGX). Directions below are in a

@@ -2,10 +2,13 @@
 //!
 //! Standard libraries and shader compilers each round these functions in their own way. The ones here are texts:
 //! every backend that repeats them operation for operation obtains the same bits, and a loop over lanes vectorises.
-//! Polynomials are in Horner form from the highest coefficient down and must be copied in that order. The coefficients
-//! are our own minimax fits.
+//! Polynomials are in Horner form from the highest coefficient down. The coefficients, in `coefficients.rs`, are our own
+//! minimax fits.
 //!
 //! Arguments are finite. Errors were measured against exact values, see `docs/accuracy.md`.
+
+use super::coefficients::*;
+use super::polynomial::horner;
 
 /// Above this argument [`exp`] stays at its value there, about 1.65e38.
 pub const EXP_ARGUMENT_MAX: f32 = 88.0;
@@ -18,6 +21,17 @@ const EXPM1_ARGUMENT_MIN: f32 = -30.0;
 
 /// `1/√π`.
 pub const INV_SQRT_PI: f32 = 0.564_189_6;
+
+crate::constants::shared!(
+    scalars: [
+        EXP_ARGUMENT_MAX, EXP_ARGUMENT_MIN, EXPM1_ARGUMENT_MIN, INV_SQRT_PI, LN_2_HEAD,
+        LN_2_TAIL, ERF_SQUARE, ERFC_VALUE_MAX, BESSEL_SQUARE, BESSEL_ROOT, ERF_INTEGRAL_SQUARE,
+    ],
+    polynomials: [
+        EXP_SLOPE, EXP_SHORT, LOG, ERF, ERFC_SCALED, ERFC_INVERSE_CENTRE, ERFC_INVERSE_TAIL,
+        BESSEL_NEAR, BESSEL_FAR, ERF_INTEGRAL, ERFC_INTEGRAL_SCALED, SINE, COSINE,
+    ]
+);
 
 /// An argument split as `x = n ln 2 + r`, with what [`exp`] and its relatives share.
 #[derive(Clone, Copy)]
@@ -37,13 +51,8 @@ fn reduce(x: f32) -> Reduced {
     let x = x.clamp(EXP_ARGUMENT_MIN, EXP_ARGUMENT_MAX);
     let whole = (x * std::f32::consts::LOG2_E + 0.5).floor();
     // ln 2 in two parts; the first has few bits, so that its product with a small whole number is exact.
-    let rest = (x - whole * 0.693_359_4) - whole * -2.121_944_4e-4;
-    let mut slope = 1.395_048_7e-3;
-    slope = slope * rest + 8.368_888e-3;
-    slope = slope * rest + 4.166_620_6e-2;
-    slope = slope * rest + 0.166_665_18;
-    slope = slope * rest + 0.5;
-    slope = slope * rest + 1.0;
+    let rest = (x - whole * LN_2_HEAD) - whole * LN_2_TAIL;
+    let slope = horner(EXP_SLOPE, rest);
     // 2^23 + 127 + n has n + 127 in its lowest bits; the shift drops the rest and leaves the bits of 2ⁿ. No conversion
     // to an integer, which would saturate in Rust and not elsewhere.
     let scale = f32::from_bits((whole + 8_388_735.0).to_bits() << 23);
@@ -123,16 +132,7 @@ pub fn log(x: f32) -> f32 {
     let exponent = ((shifted as i32) >> 23) as f32;
     let mantissa = f32::from_bits((shifted & 0x007f_ffff).wrapping_add(0x3f35_04f3));
     let m = mantissa - 1.0;
-    let mut p = -7.621_856e-2;
-    p = p * m + 0.129_044_95;
-    p = p * m - 0.132_429_85;
-    p = p * m + 0.141_818_14;
-    p = p * m - 0.166_090_82;
-    p = p * m + 0.200_019_75;
-    p = p * m - 0.250_015_82;
-    p = p * m + 0.333_333_25;
-    p = p * m - 0.499_999_88;
-    p = p * m + 1.0;
+    let p = horner(LOG, m);
     p * m + exponent * std::f32::consts::LN_2
 }
 
@@ -149,23 +149,8 @@ pub fn log(x: f32) -> f32 {
 #[must_use]
 pub fn erf(x: f32) -> f32 {
     let u = x.clamp(-3.9, 3.9);
-    let s = u * u * 0.131_492_44 - 1.0;
-    let mut p = -7.666_710_3e-4;
-    p = p * s + 1.922_207_8e-3;
-    p = p * s - 1.336_781_1e-3;
-    p = p * s + 1.905_825_1e-3;
-    p = p * s - 7.286_073e-3;
-    p = p * s + 1.358_076_6e-2;
-    p = p * s - 1.943_553_4e-2;
-    p = p * s + 2.913_501e-2;
-    p = p * s - 4.281_896_4e-2;
-    p = p * s + 5.790_580_8e-2;
-    p = p * s - 7.379_646_6e-2;
-    p = p * s + 9.067_003e-2;
-    p = p * s - 0.109_532_885;
-    p = p * s + 0.134_691_07;
-    p = p * s - 0.181_011_08;
-    p = p * s + 0.362_583_97;
+    let s = u * u * ERF_SQUARE - 1.0;
+    let p = horner(ERF, s);
     let near = (p * u).clamp(-1.0, 1.0);
     let right = if x < 3.9 { near } else { 1.0 };
     if x > -3.9 { right } else { -1.0 }
@@ -177,11 +162,7 @@ fn exp_minus_square(u: f32) -> f32 {
     // The head of u squares exactly; what is left of the exponent is below 0.05, where a short series is enough.
     let head = f32::from_bits(u.to_bits() & 0xffff_f000);
     let rest = (u - head) * (u + head);
-    let mut correction = 4.166_666_8e-2;
-    correction = correction * rest - 0.166_666_67;
-    correction = correction * rest + 0.5;
-    correction = correction * rest - 1.0;
-    correction = correction * rest + 1.0;
+    let correction = horner(EXP_SHORT, rest);
     exp(-(head * head)) * correction
 }
 
@@ -209,16 +190,7 @@ pub fn erfc(x: f32) -> f32 {
 pub fn erfc_scaled(x: f32) -> f32 {
     let u = x.clamp(0.0, 10.0);
     let q = (u - 2.0) / (u + 2.0);
-    let mut p = -3.994_463_8e-4;
-    p = p * q - 1.227_998_5e-3;
-    p = p * q + 1.313_306_7e-3;
-    p = p * q + 8.630_094e-3;
-    p = p * q - 8.060_141_5e-3;
-    p = p * q - 5.420_388_3e-2;
-    p = p * q + 0.164_055_42;
-    p = p * q - 0.166_031_46;
-    p = p * q - 9.276_398e-2;
-    p = p * q + 1.276_978_4;
+    let p = horner(ERFC_SCALED, q);
     // Beyond, four terms of the asymptotic series.
     let inverse = 1.0 / x.clamp(10.0, 1e30);
     let r = inverse * inverse;
@@ -237,28 +209,12 @@ pub fn erfc_scaled(x: f32) -> f32 {
 #[inline(always)]
 #[must_use]
 pub fn erfc_inverse(value: f32) -> f32 {
-    let y = value.clamp(1e-7, 2.0 - 2.4e-7);
+    let y = value.clamp(1e-7, ERFC_VALUE_MAX);
     let w = -log(y * (2.0 - y));
     let a = w - 2.5;
-    let mut p = 2.810_226_4e-8;
-    p = p * a + 3.432_739_4e-7;
-    p = p * a - 3.523_387_7e-6;
-    p = p * a - 4.391_506_5e-6;
-    p = p * a + 2.185_808_7e-4;
-    p = p * a - 1.253_725e-3;
-    p = p * a - 4.177_681_6e-3;
-    p = p * a + 0.246_640_73;
-    p = p * a + 1.501_409_4;
+    let p = horner(ERFC_INVERSE_CENTRE, a);
     let b = w.max(0.0).sqrt() - 3.0;
-    let mut t = -2.002_142_6e-4;
-    t = t * b + 1.009_505_6e-4;
-    t = t * b + 1.349_343_2e-3;
-    t = t * b - 3.673_428_4e-3;
-    t = t * b + 5.739_507_7e-3;
-    t = t * b - 7.622_461_3e-3;
-    t = t * b + 9.438_870_5e-3;
-    t = t * b + 1.001_674;
-    t = t * b + 2.832_976_8;
+    let t = horner(ERFC_INVERSE_TAIL, b);
     (if w < 5.0 { p } else { t }) * (1.0 - y)
 }
 
@@ -270,30 +226,16 @@ pub fn erfc_inverse(value: f32) -> f32 {
 #[must_use]
 pub fn bessel_i0_scaled(x: f32) -> f32 {
     let near = x.clamp(0.0, 3.75);
-    let s = (near * near) * 7.111_111e-2;
-    let mut p = 4.581_3e-3;
-    p = p * s + 3.607_68e-2;
-    p = p * s + 0.265_973_2;
-    p = p * s + 1.206_749_2;
-    p = p * s + 3.089_942_4;
-    p = p * s + 3.515_622_9;
-    p = p * s + 1.0;
+    let s = (near * near) * BESSEL_SQUARE;
+    let p = horner(BESSEL_NEAR, s);
     let far = x.clamp(3.75, 1e30);
     let t = 3.75 / far;
-    let mut q = 3.923_77e-3;
-    q = q * t - 1.647_633e-2;
-    q = q * t + 2.635_537e-2;
-    q = q * t - 2.057_706e-2;
-    q = q * t + 9.162_81e-3;
-    q = q * t - 1.575_65e-3;
-    q = q * t + 2.253_19e-3;
-    q = q * t + 1.328_592e-2;
-    q = q * t + 0.398_942_3;
+    let q = horner(BESSEL_FAR, t);
     if x < 3.75 {
         p * exp(-near)
     } else {
         // 1/√3.75 is what the root of t lacks.
-        q * t.sqrt() * 0.516_397_8
+        q * t.sqrt() * BESSEL_ROOT
     }
 }
 
@@ -306,20 +248,8 @@ pub fn bessel_i0_scaled(x: f32) -> f32 {
 pub fn erf_integral(u: f32) -> f32 {
     let v = u.min(3.5);
     let w = v * v;
-    let s = w * 0.163_265_3 - 1.0;
-    let mut p = 8.382_407_4e-5;
-    p = p * s - 2.473_678e-4;
-    p = p * s + 3.634_537e-4;
-    p = p * s - 7.326_377e-4;
-    p = p * s + 1.788_921_9e-3;
-    p = p * s - 3.657_146e-3;
-    p = p * s + 6.807_106_5e-3;
-    p = p * s - 1.220_920_3e-2;
-    p = p * s + 2.106_849_7e-2;
-    p = p * s - 3.539_402_4e-2;
-    p = p * s + 5.985_000_4e-2;
-    p = p * s - 0.110_025_354;
-    p = p * s + 0.311_961_92;
+    let s = w * ERF_INTEGRAL_SQUARE - 1.0;
+    let p = horner(ERF_INTEGRAL, s);
     if u < 3.5 { p * w } else { u - INV_SQRT_PI }
 }
 
@@ -339,18 +269,7 @@ pub fn erfc_integral(x: f32) -> f32 {
 pub fn erfc_integral_scaled(x: f32) -> f32 {
     let u = x.clamp(0.0, 1e15);
     let q = (u - 2.0) / (u + 2.0);
-    let mut p = 6.796_604e-4;
-    p = p * q - 1.292_922_9e-3;
-    p = p * q - 5.820_151_4e-3;
-    p = p * q + 7.569_536_6e-3;
-    p = p * q + 3.049_580_6e-2;
-    p = p * q - 3.940_404_6e-2;
-    p = p * q - 0.128_057_91;
-    p = p * q + 0.356_181_56;
-    p = p * q - 0.258_602_83;
-    p = p * q - 0.174_867_29;
-    p = p * q + 0.361_305_42;
-    p = p * q + 0.851_812_9;
+    let p = horner(ERFC_INTEGRAL_SCALED, q);
     p / (1.0 + 2.0 * (u * u))
 }
 
@@ -362,15 +281,9 @@ pub fn sin_cos_turns(turns: f32) -> (f32, f32) {
     // Both exact: the product, and a difference of close numbers.
     let u = turns - 0.25 * quarter;
     let square = u * u;
-    let mut p = -75.393_616;
-    p = p * square + 81.592_354;
-    p = p * square - 41.341_663;
-    p = p * square + 6.283_185_5;
+    let p = horner(SINE, square);
     let sine = p * u;
-    let mut q = 59.245_964;
-    q = q * square - 85.443_74;
-    q = q * square + 64.939_43;
-    q = q * square - 19.739_208;
+    let q = horner(COSINE, square);
     let cosine = q * square + 1.0;
     // Remainder of the quarter by 4, within 0 … 3.
     let turn = quarter - 4.0 * (0.25 * quarter).floor();

@@ -1,5 +1,7 @@
 //! Elementary functions and vectors, from operations that every backend rounds alike.
 
+mod coefficients;
 pub mod elementary;
 pub mod moments;
+pub mod polynomial;
 pub mod vec;

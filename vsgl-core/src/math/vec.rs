@@ -2,6 +2,16 @@
 
 use glam::Vec3;
 
+/// Weights of [`luminance`].
+const LUMINANCE_RED: f32 = 0.2126;
+const LUMINANCE_GREEN: f32 = 0.7152;
+const LUMINANCE_BLUE: f32 = 0.0722;
+
+crate::constants::shared!(
+    scalars: [LUMINANCE_RED, LUMINANCE_GREEN, LUMINANCE_BLUE],
+    polynomials: []
+);
+
 /// Unit vector along `v`; `+z` for the zero vector.
 ///
 /// For lengths within 1.1e-19 … 1.8e19, where the square neither underflows nor overflows; shorter vectors count as
@@ -53,7 +63,7 @@ pub fn orthonormal_basis(z: Vec3) -> (Vec3, Vec3) {
 #[inline(always)]
 #[must_use]
 pub fn luminance(rgb: Vec3) -> f32 {
-    rgb.dot(Vec3::new(0.2126, 0.7152, 0.0722))
+    rgb.dot(Vec3::new(LUMINANCE_RED, LUMINANCE_GREEN, LUMINANCE_BLUE))
 }
 
 /// A unit vector at `cosine` to +z, turned by `turn` \[rad\] about it, for tests.

@@ -32,12 +32,82 @@ use super::lobe::{self, SHARPNESS_MAX};
 use super::polar::PolarMoments;
 use super::{hemisphere, vmf};
 use crate::math::elementary::{INV_SQRT_PI, erf_integral, erfc_integral_scaled, exp, log};
+use crate::math::polynomial::horner;
 
 /// Sharpness of the lobe that stands for a clamped cosine in the papers of 2015 and 2016, and agrees with Toksvig's map.
 pub const COSINE_SHARPNESS_2015: f32 = 2.0;
 
 /// Sharpness of the normalised lobe closest to a normalised clamped cosine in least squares.
 pub const COSINE_SHARPNESS: f32 = 2.292_504;
+
+/// Sharpness of the wide lobe of [`lobes_2018`].
+const LOBES_2018_WIDE: f32 = 0.0315;
+
+/// Its amplitude.
+const LOBES_2018_PRODUCT: f32 = 32.708;
+
+/// What is taken away.
+const LOBES_2018_CONSTANT: f32 = 31.703;
+
+/// The same of [`lobes_2022`].
+const LOBES_2022_WIDE: f32 = 8.456_087e-4;
+
+const LOBES_2022_PRODUCT: f32 = 1_183.246_8;
+
+const LOBES_2022_CONSTANT: f32 = 1_182.246_7;
+
+/// Steepness of the step across the horizon, squared, over `κ²/2`: numerator of the form of 2024.
+const COSINE_2024_ABOVE: [f32; 3] = [1.0, 2.736_083, 17.021_298];
+
+/// Its denominator.
+const COSINE_2024_BELOW: [f32; 4] = [1.0, 4.010_082_7, 15.219_156, 76.087_9];
+
+/// The same of v13.
+const COSINE_V13_ABOVE: [f32; 3] = [1.0, 21.396_498, 144.713_6];
+
+const COSINE_V13_BELOW: [f32; 4] = [1.0, 21.267_452, 14.727_96, 673.976_8];
+
+/// Denominators of the correction of v13, to the power 7/4 and 5/2.
+const COSINE_V13_ONE: [f32; 3] = [1.0, -7.048_938, 25.317_42];
+
+const COSINE_V13_NOUGHT: [f32; 3] = [1.0, 3.616_068_8, 13.015_574];
+
+/// Weights of its terms.
+const V13_NOUGHT: f32 = 4.828_551_3;
+
+const V13_ONE: f32 = 1.445_659_7e-2;
+
+/// Steepness of v14.
+const COSINE_V14_ABOVE: [f32; 3] = [1.0, 2.299_231_8, 17.791_126];
+
+const COSINE_V14_BELOW: [f32; 4] = [1.0, 3.491_588_4, 8.598_863, 81.642_5];
+
+/// Denominators of the correction of v14; of the first the constant only.
+const V14_NOUGHT_BELOW: f32 = 9.404_963;
+
+const COSINE_V14_ONE: [f32; 3] = [1.0, 3.415_573_6, 37.932_312];
+
+const COSINE_V14_TWO: [f32; 3] = [1.0, -11.132_406, 58.319_52];
+
+/// Weights of its terms, the last one linear in the sharpness.
+const V14_NOUGHT: f32 = 0.482_650_16;
+
+const V14_ONE: f32 = -7.851_023e-2;
+
+const COSINE_V14_TWO_ABOVE: [f32; 2] = [-1.112_346_2e-3, -6.766_903e-2];
+
+crate::constants::shared!(
+    scalars: [
+        COSINE_SHARPNESS_2015, LOBES_2018_WIDE, LOBES_2018_PRODUCT, LOBES_2018_CONSTANT,
+        LOBES_2022_WIDE, LOBES_2022_PRODUCT, LOBES_2022_CONSTANT, V13_NOUGHT, V13_ONE,
+        V14_NOUGHT_BELOW, V14_NOUGHT, V14_ONE,
+    ],
+    polynomials: [
+        COSINE_2024_ABOVE, COSINE_2024_BELOW, COSINE_V13_ABOVE, COSINE_V13_BELOW,
+        COSINE_V13_ONE, COSINE_V13_NOUGHT, COSINE_V14_ABOVE, COSINE_V14_BELOW, COSINE_V14_ONE,
+        COSINE_V14_TWO, COSINE_V14_TWO_ABOVE,
+    ]
+);
 
 /// `B` with the axis along the normal \[sr\]: `2π (e^{−κ} − 1 + κ)/κ²`. Exact; π at sharpness 0.
 ///
@@ -158,9 +228,9 @@ fn widened(k: f32, z: f32, wide: f32) -> (f32, f32, f32) {
 #[must_use]
 pub fn lobes_2018(sharpness: f32, cosine: f32) -> f32 {
     let k = sharpness.min(SHARPNESS_MAX);
-    let (amplitude, k3, z3) = widened(k, cosine, 0.0315);
-    let product = 32.708 * amplitude * hemisphere::integral_2018(k3, z3);
-    (product - 31.703 * hemisphere::integral_2018(k, cosine)).max(0.0)
+    let (amplitude, k3, z3) = widened(k, cosine, LOBES_2018_WIDE);
+    let product = LOBES_2018_PRODUCT * amplitude * hemisphere::integral_2018(k3, z3);
+    (product - LOBES_2018_CONSTANT * hemisphere::integral_2018(k, cosine)).max(0.0)
 }
 
 /// Two hemispherical integrals of 2022, clamped to zero where their difference is negative. Superseded.
@@ -177,9 +247,9 @@ pub fn lobes_2018(sharpness: f32, cosine: f32) -> f32 {
 #[must_use]
 pub fn lobes_2022(sharpness: f32, cosine: f32) -> f32 {
     let k = sharpness.min(SHARPNESS_MAX);
-    let (amplitude, k3, z3) = widened(k, cosine, 8.456_087e-4);
-    let product = 1_183.246_8 * amplitude * hemisphere::integral_2022(k3, z3);
-    (product - 1_182.246_7 * hemisphere::integral_2022(k, cosine)).max(0.0)
+    let (amplitude, k3, z3) = widened(k, cosine, LOBES_2022_WIDE);
+    let product = LOBES_2022_PRODUCT * amplitude * hemisphere::integral_2022(k3, z3);
+    (product - LOBES_2022_CONSTANT * hemisphere::integral_2022(k, cosine)).max(0.0)
 }
 
 /// `v = (1 + z)/2 − (S(t) − S(t|z|))/(2t)`, see the module.
@@ -192,16 +262,16 @@ fn factor(t: f32, z: f32) -> f32 {
 /// `t` of 2024: like `0.334 κ` for small, `√(κ/2)` for large sharpness.
 #[inline(always)]
 fn steepness_2024(k: f32) -> f32 {
-    let above = (k + 2.736_083) * k + 17.021_298;
-    let below = ((k + 4.010_082_7) * k + 15.219_156) * k + 76.087_9;
+    let above = horner(COSINE_2024_ABOVE, k);
+    let below = horner(COSINE_2024_BELOW, k);
     k * (above / (2.0 * below)).sqrt()
 }
 
 /// `t` of v13.
 #[inline(always)]
 fn steepness_v13(k: f32) -> f32 {
-    let above = (k + 21.396_498) * k + 144.713_6;
-    let below = ((k + 21.267_452) * k + 14.727_96) * k + 673.976_8;
+    let above = horner(COSINE_V13_ABOVE, k);
+    let below = horner(COSINE_V13_BELOW, k);
     k * (above / (2.0 * below)).sqrt()
 }
 
@@ -217,13 +287,13 @@ fn factor_2024(k: f32, z: f32) -> f32 {
 #[inline(always)]
 fn correction_v13(k: f32, z: f32) -> f32 {
     let j = k.min(1e4);
-    let one = (j - 7.048_938) * j + 25.317_42;
-    let nought = (j + 3.616_068_8) * j + 13.015_574;
+    let one = horner(COSINE_V13_ONE, j);
+    let nought = horner(COSINE_V13_NOUGHT, j);
     let root = one.sqrt();
     let one_power = one * root * root.sqrt();
     let nought_power = nought * nought * nought.sqrt();
     let square = z * z;
-    let mixed = 4.828_551_3 * one_power + 1.445_659_7e-2 * square * nought_power;
+    let mixed = V13_NOUGHT * one_power + V13_ONE * square * nought_power;
     j * j * j * mixed / (one_power * nought_power)
 }
 
@@ -239,18 +309,18 @@ fn factor_v13(k: f32, z: f32) -> f32 {
 /// Interpolation factor of v14, within 0 … 1: as v13 with a third even term.
 #[inline(always)]
 fn factor_v14(k: f32, z: f32) -> f32 {
-    let above = (k + 2.299_231_8) * k + 17.791_126;
-    let below = ((k + 3.491_588_4) * k + 8.598_863) * k + 81.642_5;
+    let above = horner(COSINE_V14_ABOVE, k);
+    let below = horner(COSINE_V14_BELOW, k);
     let t = k * (above / (2.0 * below)).sqrt();
     // As in v13 the powers are evaluated up to 1e4, where the correction has faded.
     let j = k.min(1e4);
-    let a = j * j + 9.404_963;
-    let b = (j + 3.415_573_6) * j + 37.932_312;
-    let c = (j - 11.132_406) * j + 58.319_52;
+    let a = j * j + V14_NOUGHT_BELOW;
+    let b = horner(COSINE_V14_ONE, j);
+    let c = horner(COSINE_V14_TWO, j);
     let root = b.sqrt();
-    let nought = 0.482_650_16 * j / (a * a * a.sqrt());
-    let one = -7.851_023e-2 * j / (b * root * root.sqrt());
-    let two = (-1.112_346_2e-3 * j - 6.766_903e-2) / (c * c.sqrt());
+    let nought = V14_NOUGHT * j / (a * a * a.sqrt());
+    let one = V14_ONE * j / (b * root * root.sqrt());
+    let two = horner(COSINE_V14_TWO_ABOVE, j) / (c * c.sqrt());
     let square = z * z;
     let correction = ((two * square + one) * square + nought) * (j * j);
     let tz = t * z;

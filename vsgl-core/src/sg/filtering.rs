@@ -16,7 +16,7 @@ use std::f32::consts::PI;
 
 use glam::Vec3;
 
-use super::glossy::{ALPHA_MIN, VIEW_COSINE_MIN};
+use super::glossy::{ALPHA_MIN, REST_MIN, VIEW_COSINE_MIN};
 use super::lobe::{self, SHARPNESS_MAX};
 use super::{cosine, hemisphere};
 
@@ -124,8 +124,8 @@ impl FilteredView {
         let alpha_x = alpha_x.clamp(ALPHA_MIN, 1.0);
         let alpha_y = alpha_y.clamp(ALPHA_MIN, 1.0);
         let (ax, ay) = (alpha_x * alpha_x, alpha_y * alpha_y);
-        let cx = ((1.0 - alpha_x) * (1.0 + alpha_x)).max(1.192_092_9e-7);
-        let cy = ((1.0 - alpha_y) * (1.0 + alpha_y)).max(1.192_092_9e-7);
+        let cx = ((1.0 - alpha_x) * (1.0 + alpha_x)).max(REST_MIN);
+        let cy = ((1.0 - alpha_y) * (1.0 + alpha_y)).max(REST_MIN);
         let wide = ax.max(ay);
         let sharpness = 0.5 * cx.min(cy) / wide;
         let reach = (ax * (view.x * view.x) + ay * (view.y * view.y) + view.z * view.z).sqrt();

@@ -34,6 +34,24 @@ pub const ALPHA_MIN: f32 = 1.525_878_9e-5;
 /// Least cosine between view and normal; views at or below the surface count as this grazing.
 pub const VIEW_COSINE_MIN: f32 = 1e-6;
 
+/// Least `1 − α²`: the rounding of 1.
+pub(super) const REST_MIN: f32 = f32::EPSILON;
+
+/// Fit of the sharpness of the core in [`GlossyView::density`]: for the slightest blur, and what is added in proportion to
+/// the core and to its 32nd power.
+const CORE_SLIGHT: f32 = 0.57;
+
+const CORE_LINEAR: f32 = 0.19;
+
+const CORE_STRONG: f32 = 0.24;
+
+crate::constants::shared!(
+    scalars: [
+        ALPHA_MIN as GLOSSY_ALPHA_MIN, VIEW_COSINE_MIN, REST_MIN, CORE_SLIGHT, CORE_LINEAR, CORE_STRONG,
+    ],
+    polynomials: []
+);
+
 /// A glossy surface seen from one direction: what the evaluations for many lights share.
 ///
 /// Isotropic GGX. Directions are unit vectors in any one frame.
@@ -83,7 +101,7 @@ impl GlossyView {
     pub fn new(view: Vec3, normal: Vec3, alpha: f32) -> Self {
         let alpha = alpha.clamp(ALPHA_MIN, 1.0);
         let alpha2 = alpha * alpha;
-        let rest = ((1.0 - alpha) * (1.0 + alpha)).max(1.192_092_9e-7);
+        let rest = ((1.0 - alpha) * (1.0 + alpha)).max(REST_MIN);
         let view_cosine = view.dot(normal).max(VIEW_COSINE_MIN);
         let cosine2 = view_cosine * view_cosine;
         let cross = normal.cross(view);
@@ -195,7 +213,7 @@ impl GlossyView {
         let core4 = core2 * core2;
         let core8 = core4 * core4;
         let core16 = core8 * core8;
-        let sharp = 0.57 + 0.19 * core + 0.24 * (core16 * core16);
+        let sharp = CORE_SLIGHT + CORE_LINEAR * core + CORE_STRONG * (core16 * core16);
         // Relative to the wider GGX, of which `slope` is 1 + q. Both vanish at half vectors in the surface.
         let slope = blur.slope.min(1e12);
         let gaussian = sharp * exp(sharp - sharp * slope) * (slope * slope);

@@ -19,7 +19,25 @@ use glam::Vec3;
 use super::glossy::GlossyView;
 use super::lobe::{self, SHARPNESS_MAX};
 use crate::math::elementary::exp;
+use crate::math::polynomial::horner;
 use crate::math::vec::one_minus_cos;
+
+/// Flank of the blurred distribution: coefficients of `1/slope` and its powers, of the surface's share of the width.
+const SHAPE_ONE: [f32; 3] = [-20.140_705, 19.780_323, -0.298_130_27];
+
+const SHAPE_TWO: [f32; 3] = [54.984_54, -43.580_2, 2.694_493_3];
+
+const SHAPE_THREE: [f32; 3] = [-34.819_36, 24.547_083, -1.831_547_6];
+
+/// Weight of its core: in proportion to `1/slope`, and the rest.
+const SHAPE_PEAK: [f32; 2] = [-0.783_492_8, -0.724_866_15];
+
+const SHAPE_PEAK_REST: [f32; 2] = [-0.781_324_45, 1.129_626_6];
+
+crate::constants::shared!(
+    scalars: [],
+    polynomials: [SHAPE_ONE, SHAPE_TWO, SHAPE_THREE, SHAPE_PEAK, SHAPE_PEAK_REST]
+);
 
 /// Blurred GGX in the plane, over the GGX of the blurred width: 1 for a sharp light, near 0.8 at the peak and 1.4 on the
 /// flank for a light as wide as the lobe, `own` far out. `slope` is one plus the squared distance from the peak. Relative error at most 5 % around the peak and 10 % further out.
@@ -29,11 +47,11 @@ fn shape(own: f32, slope: f32) -> f32 {
     let y = 1.0 / inverse;
     // Gaussian over GGX of the same width.
     let core = inverse * inverse * exp(1.0 - inverse);
-    let one = (-20.140_705 * own + 19.780_323) * own - 0.298_130_27;
-    let two = (54.984_54 * own - 43.580_2) * own + 2.694_493_3;
-    let three = (-34.819_36 * own + 24.547_083) * own - 1.831_547_6;
+    let one = horner(SHAPE_ONE, own);
+    let two = horner(SHAPE_TWO, own);
+    let three = horner(SHAPE_THREE, own);
     let flank = ((three * y + two) * y + one) * y;
-    let peak = (-0.783_492_8 * own - 0.724_866_15) * y + (1.129_626_6 - 0.781_324_45 * own);
+    let peak = horner(SHAPE_PEAK, own) * y + horner(SHAPE_PEAK_REST, own);
     let blurred = flank + core * peak;
     (own + (1.0 - own) * blurred).max(0.25 * own)
 }

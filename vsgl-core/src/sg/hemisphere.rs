@@ -16,6 +16,37 @@ use super::polar::PolarMoments;
 use crate::math::elementary::{
     INV_SQRT_PI, bessel_i0_scaled, erf, erfc_scaled, exp, expm1, expm1_over_x, log,
 };
+use crate::math::polynomial::horner;
+
+/// Steepness of the logistic step of 2018 over `√κ κ`: numerator.
+const HEMISPHERE_2018_ABOVE: [f32; 2] = [1.6988, 10.8438];
+
+/// Its denominator.
+const HEMISPHERE_2018_BELOW: [f32; 3] = [1.0, 6.2201, 10.2415];
+
+/// Steepness of the step of 2022 over `κ`, squared.
+const HEMISPHERE_2022_ABOVE: [f32; 2] = [0.5, 0.651_732_9];
+
+const HEMISPHERE_2022_BELOW: [f32; 3] = [1.0, 1.341_828, 7.221_669];
+
+/// The same of our form.
+const HEMISPHERE_ODD_ABOVE: [f32; 2] = [0.5, 4.272_561_4];
+
+const HEMISPHERE_ODD_BELOW: [f32; 3] = [1.0, 3.666_031_6, 24.360_69];
+
+/// Depth of its odd correction for sharp lobes, times `√κ`, and denominator of the way there.
+const HEMISPHERE_BEND: f32 = 0.965_734_6;
+
+const HEMISPHERE_BEND_BELOW: [f32; 3] = [1.0, 1.952_873_5, 76.409_51];
+
+crate::constants::shared!(
+    scalars: [HEMISPHERE_BEND],
+    polynomials: [
+        HEMISPHERE_2018_ABOVE, HEMISPHERE_2018_BELOW, HEMISPHERE_2022_ABOVE,
+        HEMISPHERE_2022_BELOW, HEMISPHERE_ODD_ABOVE, HEMISPHERE_ODD_BELOW,
+        HEMISPHERE_BEND_BELOW,
+    ]
+);
 
 /// Integral over the hemisphere about the axis \[sr\]: `2π (1 − e^{−κ})/κ`. Exact; 2π at sharpness 0.
 ///
@@ -63,7 +94,7 @@ pub fn log_lower(sharpness: f32) -> f32 {
 #[inline(always)]
 fn factor_2018(sharpness: f32, cosine: f32) -> f32 {
     let k = sharpness;
-    let t = k.sqrt() * (((1.6988 * k + 10.8438) * k) / ((k + 6.2201) * k + 10.2415));
+    let t = k.sqrt() * ((horner(HEMISPHERE_2018_ABOVE, k) * k) / horner(HEMISPHERE_2018_BELOW, k));
     // tanh(x/2) = (1 − e^{−x})/(1 + e^{−x}), with x ≥ 0.
     let a = -expm1(-t * cosine.abs());
     let b = -expm1(-t);
@@ -81,7 +112,7 @@ fn factor_2018(sharpness: f32, cosine: f32) -> f32 {
 /// sharpness.
 #[inline(always)]
 fn steepness_2022(k: f32) -> f32 {
-    k * ((0.5 * k + 0.651_732_9) / ((k + 1.341_828) * k + 7.221_669)).sqrt()
+    k * (horner(HEMISPHERE_2022_ABOVE, k) / horner(HEMISPHERE_2022_BELOW, k)).sqrt()
 }
 
 /// Interpolation factor of Tokuyoshi 2022, an error function; `(1 + z)/2` at sharpness 0, where the listing has 0/0.
@@ -103,12 +134,12 @@ fn factor_2022(sharpness: f32, cosine: f32) -> f32 {
 #[inline(always)]
 fn factor_odd(sharpness: f32, cosine: f32) -> f32 {
     let k = sharpness;
-    let t = k * ((0.5 * k + 4.272_561_4) / ((k + 3.666_031_6) * k + 24.360_69)).sqrt();
+    let t = k * (horner(HEMISPHERE_ODD_ABOVE, k) / horner(HEMISPHERE_ODD_BELOW, k)).sqrt();
     let tz = t * cosine;
     let ratio = erf(tz) / erf(t).max(1e-30);
     // Beyond 1e6 the correction is below 1e-6.
     let j = k.min(1e6);
-    let depth = 0.965_734_6 * (j * j) / (((j + 1.952_873_5) * j + 76.409_51) * (j + 1.0).sqrt());
+    let depth = HEMISPHERE_BEND * (j * j) / (horner(HEMISPHERE_BEND_BELOW, j) * (j + 1.0).sqrt());
     let bend = cosine * ((1.0 - cosine) * (1.0 + cosine)) * exp(-tz * tz) * depth;
     let linear = 0.5 * (1.0 + cosine);
     let bent = (0.5 + 0.5 * ratio - bend).clamp(0.0, 1.0);

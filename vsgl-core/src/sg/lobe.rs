@@ -11,6 +11,8 @@ use crate::math::vec::one_minus_cos;
 /// direction: its half width is 7e-7 rad.
 pub const SHARPNESS_MAX: f32 = 2_199_023_255_552.0;
 
+crate::constants::shared!(scalars: [SHARPNESS_MAX], polynomials: []);
+
 /// A spherical Gaussian with an amplitude: `exp(log_amplitude) · exp(sharpness (ω·axis − 1))`.
 ///
 /// The amplitude is kept as its logarithm because that of a product of sharp lobes leaves the range of `f32` long before

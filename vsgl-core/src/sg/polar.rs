@@ -2,6 +2,19 @@
 
 use super::lobe::SHARPNESS_MAX;
 use crate::math::elementary::exp;
+use crate::math::polynomial::horner;
+
+/// `(κ − 1 + e^{−κ})/κ²` up to a sharpness of 1.
+const POLAR_UPPER: [f32; 6] = [
+    -1.369_566_3e-4,
+    1.323_623_2e-3,
+    -8.300_092e-3,
+    4.165_885_2e-2,
+    -0.166_665_99,
+    0.5,
+];
+
+crate::constants::shared!(scalars: [], polynomials: [POLAR_UPPER]);
 
 /// With the axis as pole and `u` the cosine to it, the integrals of `e^{−κ(1−u)}` and its moments over `u` in [0, 1].
 ///
@@ -38,12 +51,7 @@ impl PolarMoments {
         let upper_far = (1.0 - mass_far) * inverse;
         let lower_far = (mass_far - decay) * inverse;
         let near = k.min(1.0);
-        let mut p = -1.369_566_3e-4;
-        p = p * near + 1.323_623_2e-3;
-        p = p * near - 8.300_092e-3;
-        p = p * near + 4.165_885_2e-2;
-        p = p * near - 0.166_665_99;
-        p = p * near + 0.5;
+        let p = horner(POLAR_UPPER, near);
         let mass_near = 1.0 - near * p;
         let lower_near = mass_near - p;
         let small = k < 1.0;

@@ -6,9 +6,35 @@
 
 use super::lobe::SHARPNESS_MAX;
 use crate::math::elementary::exp;
+use crate::math::polynomial::horner;
 
 /// Smallest complement: that of [`SHARPNESS_MAX`].
 const COMPLEMENT_MIN: f32 = 1.0 / SHARPNESS_MAX;
+
+/// `r/κ` up to a sharpness of 1, of `κ²`.
+const MEAN_LENGTH: [f32; 6] = [
+    -1.615_416e-6,
+    2.079_772e-5,
+    -2.113_485_7e-4,
+    2.116_334_9e-3,
+    -2.222_221_7e-2,
+    0.333_333_34,
+];
+
+/// What [`sharpness`] adds to the form of 2005, over `r³`, of `r²`.
+const SHARPNESS_CORRECTION: [f32; 6] = [
+    -2.892_192,
+    7.301_261_4,
+    -5.822_696_7,
+    1.680_648_9,
+    -0.578_665_14,
+    -0.187_402_04,
+];
+
+crate::constants::shared!(
+    scalars: [COMPLEMENT_MIN],
+    polynomials: [MEAN_LENGTH, SHARPNESS_CORRECTION]
+);
 
 /// Length of a mean vector with its complement, each accurate by itself.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -75,12 +101,7 @@ pub fn mean(sharpness: f32) -> MeanLength {
     let k = sharpness.min(SHARPNESS_MAX);
     let near = k.min(1.0);
     let square = near * near;
-    let mut p = -1.615_416e-6;
-    p = p * square + 2.079_772e-5;
-    p = p * square - 2.113_485_7e-4;
-    p = p * square + 2.116_334_9e-3;
-    p = p * square - 2.222_221_7e-2;
-    p = p * square + 0.333_333_34;
+    let p = horner(MEAN_LENGTH, square);
     let length_near = p * near;
     let far = k.max(1.0);
     let decay = exp(-2.0 * far);
@@ -141,12 +162,7 @@ pub fn mean_length_complement(sharpness: f32) -> f32 {
 pub fn sharpness(mean: MeanLength) -> f32 {
     let r = mean.length;
     let s = r * r;
-    let mut q = -2.892_192;
-    q = q * s + 7.301_261_4;
-    q = q * s - 5.822_696_7;
-    q = q * s + 1.680_648_9;
-    q = q * s - 0.578_665_14;
-    q = q * s - 0.187_402_04;
+    let q = horner(SHARPNESS_CORRECTION, s);
     (sharpness_banerjee_2005(mean) + r * s * q).min(SHARPNESS_MAX)
 }
 
