@@ -37,6 +37,8 @@ pub mod geom;
 #[cfg(feature = "render")]
 pub mod metrics;
 #[cfg(feature = "render")]
+pub mod parity;
+#[cfg(feature = "render")]
 pub mod phase;
 #[cfg(feature = "render")]
 pub mod plan;

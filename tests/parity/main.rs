@@ -1,0 +1,4 @@
+//! Whether the backends agree, and whether a disagreement would be found.
+
+mod chain;
+mod faults;
