@@ -39,6 +39,24 @@ pub enum Error {
         /// Which column, and what does not fit.
         problem: String,
     },
+    /// No device to compute on was found.
+    #[error("no adapter: {problem}; {remedy}")]
+    NoAdapter {
+        /// What was looked for.
+        problem: String,
+        /// What to install or to choose instead.
+        remedy: String,
+    },
+    /// A device that cannot do what is asked, or failed at it: too small, out of memory, lost.
+    #[error("{device}: {problem}; {remedy}")]
+    Device {
+        /// Name of the device.
+        device: String,
+        /// What it cannot do, or what happened.
+        problem: String,
+        /// What to do instead.
+        remedy: String,
+    },
     /// The observer asked to stop.
     #[error("cancelled during {0}")]
     Cancelled(Phase),

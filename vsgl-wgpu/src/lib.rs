@@ -1,3 +1,22 @@
 //! The GPU backend of vsgl: the texts of `vsgl-core` again, in WGSL.
 
+mod backend;
+mod constants;
+mod context;
+mod kernel;
+mod params;
+mod passes;
+mod pool;
+mod recorder;
+mod res;
+mod shaders;
+mod strict;
+mod texels;
+mod timing;
+
+pub use backend::WgpuBackend;
+pub use context::{Context, WgpuOptions, adapters, is_software};
+pub use res::WgpuRes;
+pub use shaders::{MODULES, link};
+pub use timing::{Clock, Timings};
 pub use wgpu;

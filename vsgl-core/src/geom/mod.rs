@@ -7,5 +7,5 @@ mod triangle;
 
 pub use build::{Bvh, build};
 pub use ray::Ray;
-pub use traverse::{BvhNode, Hit, LANES, STACK, any_hit, any_hit_block, closest_hit};
+pub use traverse::{BvhNode, Hit, LANES, SLAB_EXIT, STACK, any_hit, any_hit_block, closest_hit};
 pub use triangle::{Crossing, cross};

@@ -5,6 +5,8 @@ use super::triangle::{Crossing, cross};
 use crate::data::{Element, NO_TRIANGLE, Scalar};
 use glam::Vec3;
 
+/// By how much exits from boxes are moved outwards: more than the rounding of the slab test.
+pub const SLAB_EXIT: f32 = 1.000_000_4;
 /// Depth that a walk can hold.
 pub const STACK: usize = 64;
 /// Rays that walk together in [`any_hit_block`].
@@ -43,7 +45,7 @@ pub struct Hit {
 
 /// Entry and exit parameter of a line through a box; it misses where entry is greater than exit.
 ///
-/// The exit is moved outwards by more than the rounding of the slab test, so that no hit inside is lost
+/// The exit is moved outwards by [`SLAB_EXIT`], so that no hit inside is lost
 /// (Ize 2013, "Robust BVH Ray Traversal").
 #[inline(always)]
 fn slab(node: &BvhNode, ray: &Ray) -> (f32, f32) {
@@ -52,7 +54,7 @@ fn slab(node: &BvhNode, ray: &Ray) -> (f32, f32) {
     let (near, far) = (low.min(high), low.max(high));
     let entry = near.x.max(near.y).max(near.z);
     let exit = far.x.min(far.y).min(far.z);
-    (entry, exit * 1.000_000_4)
+    (entry, exit * SLAB_EXIT)
 }
 
 /// Nearest crossing with `0 < t < t_max`; of equal ones that with the lower triangle id.

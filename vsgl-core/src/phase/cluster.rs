@@ -2,7 +2,7 @@
 //!
 //! Weights are luminances of reflected flux. Lambert and specular part are kept apart, each with its own position.
 
-use super::surface::geometric_normal;
+use super::facing::geometric_normal;
 use crate::data::{
     DiffuseVsgl, MapRecord, NO_TRIANGLE, Rsm, SceneData, SpecularVsgl, Target, Vsgls,
 };

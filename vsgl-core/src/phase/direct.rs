@@ -1,7 +1,7 @@
 //! Light of the lights themselves at one receiver.
 
+use super::facing::lift;
 use super::shade::{Colors, Incoming, Receiver, fresnel_weight, glossy_point, lambert_constant};
-use super::surface::lift;
 use crate::data::SceneData;
 use crate::geom::{Ray, any_hit};
 use crate::math::vec::normalize;

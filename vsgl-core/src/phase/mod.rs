@@ -4,6 +4,7 @@
 
 pub mod cluster;
 pub mod direct;
+pub mod facing;
 pub mod filtered;
 pub mod gbuffer;
 pub mod partition;

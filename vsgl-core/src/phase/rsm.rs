@@ -1,5 +1,6 @@
 //! What a light sees through one texel of its map.
 
+use super::facing::geometric_normal;
 use super::surface;
 use crate::brdf::albedo::ggx_albedo;
 use crate::data::{MapRecord, NO_TRIANGLE, Rsm, SceneData};
@@ -10,7 +11,7 @@ use crate::scene::{Light, SpotLight};
 use glam::Vec3;
 
 /// Smallest cosine that a texel's footprint is divided by: beyond, its area would grow without bound.
-const FOOTPRINT_COSINE_MIN: f32 = 0.05;
+pub const FOOTPRINT_COSINE_MIN: f32 = 0.05;
 
 /// The frame of a light's map of `size²` texels.
 pub fn map(light: &Light, size: u32) -> MapRecord {
@@ -100,7 +101,7 @@ pub fn texel(
     let surface = surface::at_hit(scene, &hit, ray.direction, plan.textures);
     let length = ray.direction.length();
     let light = ray.direction * (-1.0 / length);
-    let facing = surface::geometric_normal(scene, hit.triangle, light)
+    let facing = geometric_normal(scene, hit.triangle, light)
         .dot(light)
         .max(FOOTPRINT_COSINE_MIN);
     // The texel's side at depth t, squared, over the cosines towards the map's axis and the surface.

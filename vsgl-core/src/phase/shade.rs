@@ -14,7 +14,7 @@ use crate::sg::{cosine, extent, lobe, vmf, warp};
 use glam::Vec3;
 
 /// Least positional variance \[m²\]: keeps its inverse finite.
-const VARIANCE_MIN: f32 = 1e-30;
+pub const VARIANCE_MIN: f32 = 1e-30;
 
 /// A lobe of light as it arrives at a receiver.
 #[derive(Clone, Copy, Debug)]

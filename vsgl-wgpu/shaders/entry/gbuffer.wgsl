@@ -1,0 +1,68 @@
+//! needs: data/index, data/view, geom/traverse, phase/surface, phase/gbuffer
+// The G-buffer: which triangle each sample sees, then the surface there.
+
+override GLOSSY: bool = true;
+override TEXTURED: bool = true;
+
+struct Params {
+    view: View,
+    texels: TexelLayout,
+    nodes: u32,
+}
+
+@group(0) @binding(0) var<uniform> params: Params;
+@group(0) @binding(1) var<storage, read> node: array<BvhNode>;
+@group(0) @binding(2) var<storage, read> corner: array<array<f32, 9>>;
+@group(0) @binding(3) var<storage, read> corner_normal: array<array<f32, 9>>;
+@group(0) @binding(4) var<storage, read> corner_texcoord: array<array<f32, 6>>;
+@group(0) @binding(5) var<storage, read> triangle_material: array<u32>;
+@group(0) @binding(6) var<storage, read> material: array<MaterialRecord>;
+@group(0) @binding(7) var texels: texture_2d_array<u32>;
+@group(0) @binding(8) var<storage, read> triangle: array<u32>;
+@group(0) @binding(9) var<storage, read_write> triangle_out: array<u32>;
+// Columns position, normal, diffuse, specular, one after the other.
+@group(0) @binding(10) var<storage, read_write> surface_out: array<vec4<f32>>;
+@group(0) @binding(11) var<storage, read_write> grazing_out: array<f32>;
+
+@compute @workgroup_size(INVOCATIONS)
+fn visibility(
+    @builtin(global_invocation_id) invocation: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+) {
+    let view = params.view;
+    let i = item_index(invocation, groups);
+    if i >= view.samples_x * view.samples_y {
+        return;
+    }
+    let ray = gbuffer_ray(view, i % view.samples_x, i / view.samples_x);
+    triangle_out[i] = traverse_closest_hit(params.nodes, ray, F32_MAX).triangle;
+}
+
+@compute @workgroup_size(INVOCATIONS)
+fn surface(
+    @builtin(global_invocation_id) invocation: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+) {
+    let view = params.view;
+    let count = view.samples_x * view.samples_y;
+    let i = item_index(invocation, groups);
+    if i >= count {
+        return;
+    }
+    let id = triangle[i];
+    var depth = 0.0;
+    var seen: Surface;
+    if id != NO_TRIANGLE {
+        let ray = gbuffer_ray(view, i % view.samples_x, i / view.samples_x);
+        let found = triangle_cross(ray.origin, ray.direction, corner[id]);
+        depth = found.t;
+        seen = surface_at_hit(Hit(id, found.t, found.u, found.v), ray.direction);
+    }
+    surface_out[i] = vec4(seen.position, depth);
+    surface_out[count + i] = vec4(seen.normal, seen.dielectric_f90);
+    surface_out[2u * count + i] = vec4(seen.diffuse, seen.dielectric_f0);
+    if GLOSSY {
+        surface_out[3u * count + i] = vec4(seen.f0, seen.alpha);
+        grazing_out[i] = seen.f90;
+    }
+}

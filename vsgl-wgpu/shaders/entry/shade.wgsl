@@ -1,0 +1,188 @@
+//! needs: data/index, data/point_sender, data/vsgls_read, phase/direct, phase/reflect
+// Light to the eye from every sample: `direct` of the lights themselves, `vsgls` and `vpls` of one bounce. A dispatch a band
+// of samples.
+
+override GLOSSY_RECEIVERS: bool = true;
+override GLOSSY_SENDERS: bool = true;
+override RAYS: bool = true;
+override EMISSION: u32 = 0u;
+override DIFFUSE: u32 = 0u;
+override GLOSSY: u32 = 0u;
+
+struct Params {
+    eye: vec3<f32>,
+    // By how much ray origins are lifted at least.
+    lift: f32,
+    // All samples; those of this dispatch.
+    count: u32,
+    first: u32,
+    end: u32,
+    nodes: u32,
+    // Direct lights, room for clusters, or texels.
+    lights: u32,
+    // 1 where the radiance has indirect columns.
+    bounce: u32,
+}
+
+struct Count {
+    value: u32,
+}
+
+@group(0) @binding(0) var<uniform> params: Params;
+@group(0) @binding(1) var<storage, read> node: array<BvhNode>;
+@group(0) @binding(2) var<storage, read> corner: array<array<f32, 9>>;
+@group(0) @binding(3) var<storage, read> triangle: array<u32>;
+// Columns position, normal, diffuse, specular of the G-buffer.
+@group(0) @binding(4) var<storage, read> receiver: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read> grazing: array<f32>;
+@group(0) @binding(6) var<storage, read> direct_light: array<DirectLight>;
+@group(0) @binding(7) var<storage, read> lights: array<vec4<f32>>;
+@group(0) @binding(8) var<storage, read> sender: array<vec4<f32>>;
+// Number of clusters.
+@group(0) @binding(9) var<uniform> clusters: Count;
+// Columns direct, indirect_diffuse, indirect_glossy.
+@group(0) @binding(10) var<storage, read_write> radiance_out: array<f32>;
+
+fn receiver_at(i: u32) -> Receiver {
+    let normal = receiver[params.count + i];
+    let position = receiver[i].xyz;
+    var alpha = 1.0;
+    if GLOSSY_RECEIVERS {
+        alpha = receiver[3u * params.count + i].w;
+    }
+    return Receiver(
+        position,
+        normal.xyz,
+        vec_normalize(params.eye - position),
+        receiver[2u * params.count + i].w,
+        normal.w,
+        alpha,
+    );
+}
+
+fn colors_at(i: u32) -> Colors {
+    var f0 = vec3(0.0);
+    var f90 = 0.0;
+    if GLOSSY_RECEIVERS {
+        f0 = receiver[3u * params.count + i].xyz;
+        f90 = grazing[i];
+    }
+    return Colors(receiver[2u * params.count + i].xyz, f0, f90);
+}
+
+fn write(column: u32, i: u32, value: vec3<f32>) {
+    let at = 3u * (column * params.count + i);
+    radiance_out[at] = value.x;
+    radiance_out[at + 1u] = value.y;
+    radiance_out[at + 2u] = value.z;
+}
+
+// Where shadow rays of a sample start.
+fn origin_at(i: u32, position: vec3<f32>) -> vec3<f32> {
+    let facing = surface_geometric_normal(triangle[i], params.eye - position);
+    return position + facing * surface_lift(params.lift, position);
+}
+
+// Whether light reaches a sample from a point of a surface.
+fn is_open(origin: vec3<f32>, position: vec3<f32>, normal: vec3<f32>) -> bool {
+    let end = position + normal * surface_lift(params.lift, position);
+    return !traverse_any_hit(params.nodes, ray_new(origin, end - origin), 1.0);
+}
+
+@compute @workgroup_size(INVOCATIONS)
+fn direct(
+    @builtin(global_invocation_id) invocation: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+) {
+    let i = params.first + item_index(invocation, groups);
+    if i >= params.end {
+        return;
+    }
+    var sum = vec3(0.0);
+    if triangle[i] != NO_TRIANGLE {
+        let seen = receiver_at(i);
+        let colors = colors_at(i);
+        let facing = surface_geometric_normal(triangle[i], params.eye - seen.position);
+        for (var j = 0u; j < params.lights; j++) {
+            sum += direct_radiance(params.nodes, params.lift, direct_light[j], seen, facing, colors);
+        }
+    }
+    write(0u, i, sum);
+}
+
+fn write_indirect(i: u32, total: Sums) {
+    let colors = colors_at(i);
+    write(1u, i, colors_diffuse(colors, total.diffuse));
+    if GLOSSY_RECEIVERS {
+        write(2u, i, colors_glossy(colors, total.near, total.grazing));
+    }
+}
+
+@compute @workgroup_size(INVOCATIONS)
+fn vsgls(
+    @builtin(global_invocation_id) invocation: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+) {
+    let i = params.first + item_index(invocation, groups);
+    if i >= params.end {
+        return;
+    }
+    var total: Sums;
+    if triangle[i] != NO_TRIANGLE {
+        let seen = receiver_at(i);
+        let origin = origin_at(i, seen.position);
+        var surface: GlossyView;
+        if GLOSSY_RECEIVERS {
+            surface = glossy_view_new(seen.view, seen.normal, seen.alpha);
+        }
+        let capacity = params.lights;
+        for (var j = 0u; j < clusters.value; j++) {
+            var sums = reflect_diffuse(diffuse_vsgl_at(j), seen, surface);
+            if GLOSSY_SENDERS {
+                sums = reflect_specular(sums, specular_vsgl_at(j, capacity), seen, surface);
+            }
+            if RAYS {
+                if !sums_lit(sums) {
+                    continue;
+                }
+                let point = target_at(j, capacity, select(0u, SPECULAR_STRIDE, GLOSSY_SENDERS));
+                if !is_open(origin, point.position, point.normal) {
+                    continue;
+                }
+            }
+            total = sums_add(total, sums);
+        }
+    }
+    write_indirect(i, total);
+}
+
+@compute @workgroup_size(INVOCATIONS)
+fn vpls(
+    @builtin(global_invocation_id) invocation: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+) {
+    let i = params.first + item_index(invocation, groups);
+    if i >= params.end {
+        return;
+    }
+    var total: Sums;
+    if triangle[i] != NO_TRIANGLE {
+        let seen = receiver_at(i);
+        let origin = origin_at(i, seen.position);
+        for (var j = 0u; j < params.lights; j++) {
+            let light = sender_at(j);
+            if !light.lit {
+                continue;
+            }
+            let incoming = shade_incoming_point(light.point, seen.position);
+            let sums = reflect_point(Sums(), incoming, seen);
+            if RAYS {
+                if !sums_lit(sums) || !is_open(origin, light.point.position, light.facing) {
+                    continue;
+                }
+            }
+            total = sums_add(total, sums);
+        }
+    }
+    write_indirect(i, total);
+}

@@ -1,0 +1,59 @@
+//! needs: brdf/albedo, data/lights, geom/ray, math/vec, phase/facing, phase/surface
+// What a light sees through one texel of its map. Twin of `vsgl-core/src/phase/rsm.rs`.
+
+struct RsmRay {
+    ray: Ray,
+    // Flux that leaves the light through the texel.
+    flux: vec3<f32>,
+}
+
+fn rsm_ray(map: MapRecord, size: u32, x: u32, y: u32) -> RsmRay {
+    let side = 2.0 * map.tan_half_fov / f32(size);
+    let across = (f32(x) + 0.5) * side - map.tan_half_fov;
+    let upwards = map.tan_half_fov - (f32(y) + 0.5) * side;
+    let sideways = map.right * across + map.up * upwards;
+    let direction = map.axis + sideways;
+    let cosine = 1.0 / sqrt(1.0 + (across * across + upwards * upwards));
+    let falloff = spot_light_falloff(cosine, map.cos_inner, map.cos_outer);
+    let solid_angle = map.solid_angle * (cosine * cosine * cosine);
+    return RsmRay(ray_new(map.position, direction), map.intensity * (falloff * solid_angle));
+}
+
+struct Texel {
+    position: vec4<f32>,
+    normal: vec4<f32>,
+    diffuse: vec4<f32>,
+    specular: vec4<f32>,
+    grazing: vec4<f32>,
+}
+
+fn rsm_empty() -> Texel {
+    return Texel(
+        vec4(0.0),
+        vec4(0.0, 0.0, 1.0, 0.0),
+        vec4(0.0),
+        vec4(0.0, 0.0, 0.0, 1.0),
+        vec4(0.0),
+    );
+}
+
+// The texel at a hit of its ray.
+fn rsm_texel(map: MapRecord, size: u32, ray: Ray, flux: vec3<f32>, hit: Hit) -> Texel {
+    let seen = surface_at_hit(hit, ray.direction);
+    let length = sqrt(dot(ray.direction, ray.direction));
+    let light = ray.direction * (-1.0 / length);
+    let normal = surface_geometric_normal(hit.triangle, light);
+    let facing = max(dot(normal, light), FOOTPRINT_COSINE_MIN);
+    let side = 2.0 * map.tan_half_fov / f32(size) * hit.t;
+    let area = side * side / (length * facing);
+    let albedo = albedo_ggx_albedo(dot(seen.normal, light), seen.alpha);
+    let f0 = seen.f0 * flux;
+    let f90 = flux * seen.f90;
+    return Texel(
+        vec4(seen.position, area),
+        vec4(seen.normal, seen.dielectric_f90),
+        vec4(seen.diffuse * flux, seen.dielectric_f0),
+        vec4(f0, seen.alpha),
+        vec4(f90, vec_luminance(albedo_weigh(albedo, f0, f90))),
+    );
+}

@@ -1,0 +1,65 @@
+//! Parameters of dispatches, as shaders read them from uniform buffers. Twins of the structs in `shaders/data`.
+
+use crate::res::WgpuRes;
+use bytemuck::{Pod, Zeroable};
+use vsgl_core::data::SceneData;
+
+/// Twin of `View` in `data/view.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub(crate) struct View {
+    pub(crate) eye: [f32; 3],
+    pub(crate) tan_half_fov: f32,
+    pub(crate) forward: [f32; 3],
+    pub(crate) width: u32,
+    pub(crate) right: [f32; 3],
+    pub(crate) height: u32,
+    pub(crate) up: [f32; 3],
+    pub(crate) aa: u32,
+    pub(crate) stride: u32,
+    pub(crate) samples_x: u32,
+    pub(crate) samples_y: u32,
+    pub(crate) padding: u32,
+}
+
+impl From<&vsgl_core::render::View> for View {
+    fn from(view: &vsgl_core::render::View) -> Self {
+        let camera = &view.camera;
+        let (samples_x, samples_y) = view.samples();
+        Self {
+            eye: camera.eye.to_array(),
+            tan_half_fov: camera.tan_half_fov,
+            forward: camera.forward.to_array(),
+            width: view.width,
+            right: camera.right.to_array(),
+            height: view.height,
+            up: camera.up.to_array(),
+            aa: view.aa,
+            stride: view.stride,
+            samples_x,
+            samples_y,
+            padding: 0,
+        }
+    }
+}
+
+/// Twin of `TexelLayout` in `data/scene.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub(crate) struct TexelLayout {
+    pub(crate) texture: u32,
+    pub(crate) texel: u32,
+    pub(crate) srgb: u32,
+    pub(crate) rows: u32,
+}
+
+impl TexelLayout {
+    pub(crate) fn of(scene: &WgpuRes<SceneData>) -> Self {
+        Self {
+            texture: scene.first_word("texture"),
+            texel: scene.first_word("texel"),
+            srgb: scene.first_word("srgb"),
+            rows: scene.texels().rows(),
+        }
+    }
+}

@@ -1,0 +1,88 @@
+//! What the camera sees.
+
+use super::flag;
+use crate::params::{TexelLayout, View};
+use crate::recorder::{Groups, Recorder};
+use crate::res::WgpuRes;
+use bytemuck::{Pod, Zeroable};
+use vsgl_core::Result;
+use vsgl_core::data::{GBuffer, SceneData};
+use vsgl_core::plan::GBufferPlan;
+
+/// Twin of `Params` in `entry/gbuffer.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+struct Params {
+    view: View,
+    texels: TexelLayout,
+    nodes: u32,
+    padding: [u32; 3],
+}
+
+/// Records both kernels: which triangle each sample sees, and the surface there.
+pub(crate) fn record(
+    recorder: &mut Recorder<'_>,
+    scene: &WgpuRes<SceneData>,
+    view: &vsgl_core::render::View,
+    plan: &GBufferPlan,
+) -> Result<WgpuRes<GBuffer>> {
+    let context = recorder.context();
+    let (width, height) = view.samples();
+    let count = u64::from(width) * u64::from(height);
+    let glossy = if plan.glossy { count } else { 0 };
+    let made = WgpuRes::<GBuffer>::new(
+        context,
+        vec![width, height],
+        &[
+            ("triangle", 4, count),
+            ("position", 16, count),
+            ("normal", 16, count),
+            ("diffuse", 16, count),
+            ("specular", 16, glossy),
+            ("grazing", 4, glossy),
+        ],
+    )?;
+    let params = Params {
+        view: View::from(view),
+        texels: TexelLayout::of(scene),
+        nodes: scene.len("node") as u32,
+        padding: [0; 3],
+    };
+    let visibility = context.kernel("entry/gbuffer", "visibility", &[])?;
+    recorder.dispatch(
+        &visibility,
+        &params,
+        &[
+            ("node", scene.bind("node")),
+            ("corner", scene.bind("corner")),
+            ("triangle_out", made.bind("triangle")),
+        ],
+        Groups::Items(count),
+    )?;
+    let constants = [
+        ("GLOSSY", flag(plan.glossy)),
+        // A plan made by hand may ask for textures that the scene has not.
+        (
+            "TEXTURED",
+            flag(plan.textures && scene.len("corner_texcoord") > 0),
+        ),
+    ];
+    let surface = context.kernel("entry/gbuffer", "surface", &constants)?;
+    recorder.dispatch(
+        &surface,
+        &params,
+        &[
+            ("corner", scene.bind("corner")),
+            ("corner_normal", scene.bind("corner_normal")),
+            ("corner_texcoord", scene.bind("corner_texcoord")),
+            ("triangle_material", scene.bind("triangle_material")),
+            ("material", scene.bind("material")),
+            ("texels", scene.bind("texel")),
+            ("triangle", made.bind("triangle")),
+            ("surface_out", made.bind("position")),
+            ("grazing_out", made.bind("grazing")),
+        ],
+        Groups::Items(count),
+    )?;
+    Ok(made)
+}

@@ -1,0 +1,98 @@
+//! What the lights see.
+
+use super::flag;
+use crate::params::TexelLayout;
+use crate::recorder::{Groups, Recorder};
+use crate::res::WgpuRes;
+use bytemuck::{Pod, Zeroable};
+use vsgl_core::Result;
+use vsgl_core::data::{MapRecord, Rsm, SceneData};
+use vsgl_core::phase::rsm::map;
+use vsgl_core::plan::RsmPlan;
+use vsgl_core::scene::Light;
+
+/// Twin of `Params` in `entry/rsm.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+struct Params {
+    map: MapRecord,
+    texels: TexelLayout,
+    nodes: u32,
+    size: u32,
+    first: u32,
+    count: u32,
+}
+
+/// Records both kernels for each light's map.
+pub(crate) fn record(
+    recorder: &mut Recorder<'_>,
+    scene: &WgpuRes<SceneData>,
+    lights: &[Light],
+    plan: &RsmPlan,
+) -> Result<WgpuRes<Rsm>> {
+    let context = recorder.context();
+    let maps: Vec<MapRecord> = lights.iter().map(|light| map(light, plan.size)).collect();
+    let side = u64::from(plan.size) * u64::from(plan.size);
+    let count = side * maps.len() as u64;
+    let glossy = if plan.glossy { count } else { 0 };
+    let made = WgpuRes::<Rsm>::new(
+        context,
+        vec![plan.size, maps.len() as u32],
+        &[
+            ("map", size_of::<MapRecord>() as u64, maps.len() as u64),
+            ("triangle", 4, count),
+            ("position", 16, count),
+            ("normal", 16, count),
+            ("diffuse", 16, count),
+            ("specular", 16, glossy),
+            ("grazing", 16, glossy),
+        ],
+    )?;
+    made.write(context, "map", bytemuck::cast_slice(&maps));
+    let visibility = context.kernel("entry/rsm", "visibility", &[])?;
+    let constants = [
+        ("GLOSSY", flag(plan.glossy)),
+        // A plan made by hand may ask for textures that the scene has not.
+        (
+            "TEXTURED",
+            flag(plan.textures && scene.len("corner_texcoord") > 0),
+        ),
+    ];
+    let surface = context.kernel("entry/rsm", "surface", &constants)?;
+    for (index, map) in maps.iter().enumerate() {
+        let params = Params {
+            map: *map,
+            texels: TexelLayout::of(scene),
+            nodes: scene.len("node") as u32,
+            size: plan.size,
+            first: (index as u64 * side) as u32,
+            count: count as u32,
+        };
+        recorder.dispatch(
+            &visibility,
+            &params,
+            &[
+                ("node", scene.bind("node")),
+                ("corner", scene.bind("corner")),
+                ("triangle_out", made.bind("triangle")),
+            ],
+            Groups::Items(side),
+        )?;
+        recorder.dispatch(
+            &surface,
+            &params,
+            &[
+                ("corner", scene.bind("corner")),
+                ("corner_normal", scene.bind("corner_normal")),
+                ("corner_texcoord", scene.bind("corner_texcoord")),
+                ("triangle_material", scene.bind("triangle_material")),
+                ("material", scene.bind("material")),
+                ("texels", scene.bind("texel")),
+                ("triangle", made.bind("triangle")),
+                ("texel_out", made.bind("position")),
+            ],
+            Groups::Items(side),
+        )?;
+    }
+    Ok(made)
+}

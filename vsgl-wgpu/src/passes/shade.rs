@@ -1,0 +1,303 @@
+//! Light to the eye.
+
+use super::flag;
+use crate::backend::WgpuBackend;
+use crate::context::{Context, is_software};
+use crate::kernel::{Constant, Kernel};
+use crate::pool::Pooled;
+use crate::recorder::{Binding, Groups, Recorder};
+use crate::res::WgpuRes;
+use bytemuck::{Pod, Zeroable};
+use std::ops::Range;
+use std::sync::Arc;
+use vsgl_core::Result;
+use vsgl_core::backend::{Senders, ShadeInputs};
+use vsgl_core::data::Radiance;
+use vsgl_core::plan::ShadePlan;
+use vsgl_core::scene::{Light, SpotLight};
+use vsgl_core::settings::{DiffuseForm, Emission, GlossyForm, OcclusionMethod};
+
+/// Pairs of sample and light in one dispatch, about: so much a GPU does in a tenth of a second or less, which no watchdog
+/// minds; and so much a software driver does in a few seconds, so that a user can stop it.
+const PAIRS_GPU: u64 = 1 << 30;
+const PAIRS_SOFTWARE: u64 = 1 << 23;
+/// What a pair costs with a ray, in pairs without.
+const RAY_COST: u64 = 8;
+
+/// Twin of `Params` in `entry/shade.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+struct Params {
+    eye: [f32; 3],
+    lift: f32,
+    count: u32,
+    first: u32,
+    end: u32,
+    nodes: u32,
+    lights: u32,
+    bounce: u32,
+    padding: [u32; 2],
+}
+
+/// Twin of `DirectLight` in `phase/direct.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+struct DirectLight {
+    position: [f32; 3],
+    cos_inner: f32,
+    axis: [f32; 3],
+    cos_outer: f32,
+    intensity: [f32; 3],
+    padding: f32,
+}
+
+impl From<&Light> for DirectLight {
+    fn from(light: &Light) -> Self {
+        let Light::Spot(SpotLight {
+            position,
+            axis,
+            intensity,
+            inner,
+            outer,
+        }) = *light
+        else {
+            unreachable!("spot lights are all there are")
+        };
+        Self {
+            position: position.to_array(),
+            cos_inner: inner.cos(),
+            axis: axis.to_array(),
+            cos_outer: outer.cos(),
+            intensity,
+            padding: 0.0,
+        }
+    }
+}
+
+/// Twin of `Params` in `entry/senders.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+struct SenderParams {
+    map_texels: u32,
+    count: u32,
+}
+
+/// Shading that is recorded band by band.
+#[derive(Debug)]
+pub(crate) struct Shading {
+    radiance: WgpuRes<Radiance>,
+    params: Params,
+    direct: Arc<Kernel>,
+    direct_lights: Pooled,
+    bounce: Option<Bounce>,
+    /// Samples of a band.
+    band: u32,
+}
+
+/// The indirect part.
+#[derive(Debug)]
+struct Bounce {
+    kernel: Arc<Kernel>,
+    /// Lights, or room for them.
+    lights: u32,
+    /// Point lights from the texels, and the kernel that makes them.
+    senders: Option<(Pooled, Arc<Kernel>, SenderParams)>,
+}
+
+impl Shading {
+    /// Takes memory and pipelines for shading.
+    pub(crate) fn new(
+        context: &Context,
+        inputs: &ShadeInputs<'_, WgpuBackend>,
+        plan: &ShadePlan,
+    ) -> Result<Self> {
+        let gbuffer = inputs.gbuffer;
+        let count = gbuffer.len("triangle");
+        let bounce = Bounce::new(context, &inputs.senders, plan)?;
+        let (diffuse, glossy) = match plan.bounce {
+            false => (0, 0),
+            true if plan.glossy_receivers => (count, count),
+            true => (count, 0),
+        };
+        let radiance = WgpuRes::<Radiance>::new(
+            context,
+            gbuffer.head.clone(),
+            &[
+                ("direct", 12, count),
+                ("indirect_diffuse", 12, diffuse),
+                ("indirect_glossy", 12, glossy),
+            ],
+        )?;
+        let lights: Vec<DirectLight> = inputs.lights.iter().map(DirectLight::from).collect();
+        let bytes = bytemuck::cast_slice(&lights);
+        let direct_lights = context.buffer("the lights", bytes.len() as u64)?;
+        if !bytes.is_empty() {
+            context.queue().write_buffer(&direct_lights, 0, bytes);
+        }
+        let cost = match plan.occlusion {
+            OcclusionMethod::None => 1,
+            OcclusionMethod::Rays => RAY_COST,
+        };
+        let pairs = if is_software(context.info()) {
+            PAIRS_SOFTWARE
+        } else {
+            PAIRS_GPU
+        };
+        let lights_all = bounce.as_ref().map_or(0, |b| u64::from(b.lights)) + lights.len() as u64;
+        let band = (pairs / (cost * lights_all.max(1))).clamp(1 << 12, u64::from(u32::MAX));
+        let constants = [("GLOSSY_RECEIVERS", flag(plan.glossy_receivers))];
+        Ok(Self {
+            radiance,
+            params: Params {
+                eye: inputs.view.camera.eye.to_array(),
+                lift: f32::from_bits(inputs.scene.head[0]),
+                count: count as u32,
+                first: 0,
+                end: 0,
+                nodes: inputs.scene.len("node") as u32,
+                lights: lights.len() as u32,
+                bounce: u32::from(plan.bounce),
+                padding: [0; 2],
+            },
+            direct: context.kernel("entry/shade", "direct", &constants)?,
+            direct_lights,
+            bounce,
+            band: band as u32,
+        })
+    }
+
+    /// Samples that are recorded at once, with the share that is done before them.
+    pub(crate) fn bands(&self) -> Vec<(f32, Range<u32>)> {
+        let (count, band) = (self.params.count, self.band as usize);
+        (0..count)
+            .step_by(band)
+            .map(|first| {
+                let end = first.saturating_add(self.band).min(count);
+                (first as f32 / count as f32, first..end)
+            })
+            .collect()
+    }
+
+    /// Records all kernels for a band; the first band must come first.
+    pub(crate) fn record(
+        &self,
+        recorder: &mut Recorder<'_>,
+        inputs: &ShadeInputs<'_, WgpuBackend>,
+        band: Range<u32>,
+    ) -> Result<()> {
+        let samples = Groups::Items(u64::from(band.end - band.start));
+        let params = Params {
+            first: band.start,
+            end: band.end,
+            ..self.params
+        };
+        let (scene, gbuffer) = (inputs.scene, inputs.gbuffer);
+        let mut bound = vec![
+            ("node", scene.bind("node")),
+            ("corner", scene.bind("corner")),
+            ("triangle", gbuffer.bind("triangle")),
+            ("receiver", gbuffer.bind("position")),
+            ("grazing", gbuffer.bind("grazing")),
+            ("direct_light", Binding::Buffer(&self.direct_lights)),
+            ("radiance_out", self.radiance.bind("direct")),
+        ];
+        recorder.dispatch(&self.direct, &params, &bound, samples)?;
+        let Some(bounce) = &self.bounce else {
+            return Ok(());
+        };
+        match (&inputs.senders, &bounce.senders) {
+            (Senders::Vsgls(vsgls), _) => {
+                bound.push(("lights", vsgls.bind("diffuse")));
+                bound.push(("clusters", Binding::Buffer(vsgls.count_buffer())));
+            }
+            (Senders::Vpls(rsm), Some((buffer, kernel, sender_params))) => {
+                if band.start == 0 {
+                    let texels = [
+                        ("corner", scene.bind("corner")),
+                        ("map", rsm.bind("map")),
+                        ("triangle", rsm.bind("triangle")),
+                        ("texel", rsm.bind("position")),
+                        ("sender_out", Binding::Buffer(buffer)),
+                    ];
+                    let items = Groups::Items(u64::from(bounce.lights));
+                    recorder.dispatch(kernel, sender_params, &texels, items)?;
+                }
+                bound.push(("sender", Binding::Buffer(buffer)));
+            }
+            _ => {}
+        }
+        let params = Params {
+            lights: bounce.lights,
+            ..params
+        };
+        recorder.dispatch(&bounce.kernel, &params, &bound, samples)
+    }
+
+    /// The result, once all bands are recorded.
+    pub(crate) fn finish(self) -> WgpuRes<Radiance> {
+        self.radiance
+    }
+}
+
+impl Bounce {
+    fn new(
+        context: &Context,
+        senders: &Senders<'_, WgpuBackend>,
+        plan: &ShadePlan,
+    ) -> Result<Option<Self>> {
+        Ok(match senders {
+            Senders::None => None,
+            Senders::Vsgls(vsgls) => Some(Self {
+                kernel: context.kernel("entry/shade", "vsgls", &constants(plan))?,
+                lights: vsgls.len("diffuse") as u32,
+                senders: None,
+            }),
+            Senders::Vpls(rsm) => {
+                let texels = rsm.len("triangle");
+                let size = u64::from(rsm.head[0]);
+                let buffer = context.buffer("the point lights", 7 * 16 * texels)?;
+                let glossy = plan.glossy_senders && rsm.len("specular") > 0;
+                let made = [("GLOSSY_SENDERS", flag(glossy))];
+                let params = SenderParams {
+                    map_texels: (size * size) as u32,
+                    count: texels as u32,
+                };
+                Some(Self {
+                    kernel: context.kernel("entry/shade", "vpls", &constants(plan))?,
+                    lights: texels as u32,
+                    senders: Some((
+                        buffer,
+                        context.kernel("entry/senders", "senders", &made)?,
+                        params,
+                    )),
+                })
+            }
+        })
+    }
+}
+
+/// The constants of the kernels that shade by virtual lights; numbers as in `phase/reflect.wgsl`.
+fn constants(plan: &ShadePlan) -> [Constant; 6] {
+    let emission = match plan.emission {
+        Emission::Cosine => 0.0,
+        Emission::Sg => 1.0,
+    };
+    let diffuse = match plan.diffuse {
+        DiffuseForm::V13 => 0.0,
+        DiffuseForm::Tokuyoshi2024 => 1.0,
+        DiffuseForm::Constant => 2.0,
+    };
+    let glossy = match plan.glossy {
+        GlossyForm::NdfFilter => 0.0,
+        GlossyForm::NdfFilter2024 => 1.0,
+        GlossyForm::Asg2013 => 2.0,
+    };
+    [
+        ("GLOSSY_RECEIVERS", flag(plan.glossy_receivers)),
+        ("GLOSSY_SENDERS", flag(plan.glossy_senders)),
+        ("RAYS", flag(plan.occlusion == OcclusionMethod::Rays)),
+        ("EMISSION", emission),
+        ("DIFFUSE", diffuse),
+        ("GLOSSY", glossy),
+    ]
+}

@@ -1,0 +1,139 @@
+//! The shader files, and joining those that an entry needs.
+
+use crate::constants::shared;
+use std::fmt::Write;
+
+/// Every shader file by its name below `shaders/`, without `.wgsl`.
+macro_rules! modules {
+    ($($name:literal),* $(,)?) => {
+        &[$(($name, include_str!(concat!("../shaders/", $name, ".wgsl")))),*]
+    };
+}
+
+/// All files.
+pub const MODULES: &[(&str, &str)] = modules![
+    "brdf/albedo",
+    "brdf/beckmann",
+    "brdf/fresnel",
+    "brdf/ggx",
+    "brdf/ggx_local",
+    "brdf/gltf",
+    "brdf/roughness",
+    "brdf/visible",
+    "data/index",
+    "data/lights",
+    "data/point_sender",
+    "data/scene",
+    "data/view",
+    "data/vsgls",
+    "data/vsgls_read",
+    "entry/gbuffer",
+    "entry/resolve",
+    "entry/rsm",
+    "entry/senders",
+    "entry/shade",
+    "geom/ray",
+    "geom/traverse",
+    "geom/triangle",
+    "math/elementary",
+    "math/moments",
+    "math/vec",
+    "phase/direct",
+    "phase/facing",
+    "phase/gbuffer",
+    "phase/reflect",
+    "phase/resolve",
+    "phase/rsm",
+    "phase/shade",
+    "phase/surface",
+    "phase/texture",
+    "sg/asg",
+    "sg/cosine",
+    "sg/extent",
+    "sg/filtering",
+    "sg/glossy",
+    "sg/glossy_blend",
+    "sg/hemisphere",
+    "sg/lobe",
+    "sg/polar",
+    "sg/vmf",
+    "sg/warp",
+];
+
+/// Text of a file.
+///
+/// # Panics
+/// If there is no file of that name: a mistake in this crate.
+fn text(name: &str) -> &'static str {
+    let found = MODULES.iter().find(|(n, _)| *n == name);
+    found.map_or_else(|| panic!("no shader file `{name}`"), |(_, text)| text)
+}
+
+/// The files that a text names in its `//! needs:` lines.
+fn needs(text: &str) -> impl Iterator<Item = &str> {
+    text.lines()
+        .filter_map(|line| line.strip_prefix("//! needs:"))
+        .flat_map(|names| names.split(','))
+        .map(str::trim)
+}
+
+/// One text from files and all that they need: each once, after what it needs, and constants first.
+///
+/// # Panics
+/// If a file needs one that does not exist, or itself: a mistake in this crate, which a test finds.
+pub fn link(names: &[&str]) -> String {
+    let mut order = Vec::new();
+    for name in names {
+        visit(name, &mut order, &mut Vec::new());
+    }
+    let mut linked = String::new();
+    for name in order {
+        // Errors of the compiler are read beside the file's name.
+        let _ = writeln!(linked, "// {name}.wgsl");
+        linked.push_str(text(name));
+        linked.push('\n');
+    }
+    format!("{}{}{linked}", header(), shared(&linked))
+}
+
+fn visit<'a>(name: &'a str, order: &mut Vec<&'a str>, above: &mut Vec<&'a str>) {
+    if order.contains(&name) {
+        return;
+    }
+    assert!(!above.contains(&name), "shader file `{name}` needs itself");
+    above.push(name);
+    for needed in needs(text(name)) {
+        visit(needed, order, above);
+    }
+    above.pop();
+    order.push(name);
+}
+
+/// Constants of phases and geometry, written once in Rust.
+fn header() -> String {
+    use vsgl_core::phase::{facing, rsm, shade, surface};
+    let floats: &[(&str, f32)] = &[
+        ("ALPHA_MIN", surface::ALPHA_MIN),
+        ("FOOTPRINT_COSINE_MIN", rsm::FOOTPRINT_COSINE_MIN),
+        ("VARIANCE_MIN", shade::VARIANCE_MIN),
+        ("LIFT", facing::LIFT),
+        ("SLAB_EXIT", vsgl_core::geom::SLAB_EXIT),
+        ("STRENGTH_MAX", f32::MAX * 1e-6),
+    ];
+    let integers: &[(&str, u32)] = &[
+        ("NO_TRIANGLE", vsgl_core::data::NO_TRIANGLE),
+        ("NO_TEXTURE", vsgl_core::data::NO_TEXTURE),
+        ("STACK", vsgl_core::geom::STACK as u32),
+        ("TEXEL_SIDE", crate::texels::SIDE),
+        ("INVOCATIONS", crate::kernel::INVOCATIONS),
+    ];
+    let mut text = String::new();
+    for (name, value) in floats {
+        // The shortest decimal that reads back as the same bits.
+        let _ = writeln!(text, "const {name}: f32 = {value:e}f;");
+    }
+    for (name, value) in integers {
+        let _ = writeln!(text, "const {name}: u32 = {value}u;");
+    }
+    text
+}
