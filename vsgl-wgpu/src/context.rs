@@ -1,10 +1,12 @@
 //! The device, and what all phases share on it.
 
 use crate::kernel::{Constant, Kernel, KernelId, Kernels};
+use crate::passes;
 use crate::pool::{Pool, Pooled};
 use crate::recorder::Uniforms;
 use crate::timing::{Timer, Timings};
 use std::sync::{Arc, Mutex};
+use vsgl_core::plan::Plan;
 use vsgl_core::{Error, Result};
 use wgpu::{Device, DeviceType, Queue};
 
@@ -245,13 +247,23 @@ impl Context {
         entry: &'static str,
         constants: &[Constant],
     ) -> Result<Arc<Kernel>> {
-        let id = KernelId {
-            file,
-            entry,
-            constants: constants.to_vec(),
-        };
-        let made = self.kernels.get(&self.device, self.strict, &id);
+        self.made(&KernelId::new(file, entry, constants))
+    }
+
+    fn made(&self, id: &KernelId) -> Result<Arc<Kernel>> {
+        let made = self.kernels.get(&self.device, self.strict, id);
         made.map_err(|problem| self.error(problem, "report it, with the adapter's name and driver"))
+    }
+
+    /// Makes every pipeline that a plan needs, so that its first frame need not wait for compilers.
+    ///
+    /// # Errors
+    /// [`Error::Device`] if the driver refuses one.
+    pub fn prepare(&self, plan: &Plan) -> Result<()> {
+        for id in passes::kernels(plan) {
+            self.made(&id)?;
+        }
+        Ok(())
     }
 
     /// A storage buffer of so many bytes, from the pool.

@@ -12,17 +12,27 @@ use wgpu::naga::{self, AddressSpace, ShaderStage};
 pub(crate) const INVOCATIONS: u32 = 64;
 
 /// Value of an `override` constant; `bool` as 0 or 1.
-pub(crate) type Constant = (&'static str, f64);
+pub type Constant = (&'static str, f64);
 
-/// What makes a pipeline: file below `shaders/entry/`, entry point in it, constants.
+/// What makes a pipeline: a file of shaders, an entry point in it, and constants.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct KernelId {
-    /// The file, such as `entry/shade`.
-    pub(crate) file: &'static str,
+pub struct KernelId {
+    /// The file, such as `entry/shade`; [`crate::link`] gives its text.
+    pub file: &'static str,
     /// The function marked `@compute`.
-    pub(crate) entry: &'static str,
+    pub entry: &'static str,
     /// Values of its `override` constants.
-    pub(crate) constants: Vec<Constant>,
+    pub constants: Vec<Constant>,
+}
+
+impl KernelId {
+    pub(crate) fn new(file: &'static str, entry: &'static str, constants: &[Constant]) -> Self {
+        Self {
+            file,
+            entry,
+            constants: constants.to_vec(),
+        }
+    }
 }
 
 /// A pipeline and the names of what it binds.

@@ -16,6 +16,8 @@ mod timing;
 
 pub use backend::WgpuBackend;
 pub use context::{Context, WgpuOptions, adapters, is_software};
+pub use kernel::{Constant, KernelId};
+pub use passes::kernels;
 pub use res::WgpuRes;
 pub use shaders::{MODULES, link};
 pub use timing::{Clock, Timings};

@@ -1,6 +1,7 @@
 //! What the camera sees.
 
 use super::flag;
+use crate::kernel::{Constant, KernelId};
 use crate::params::{TexelLayout, View};
 use crate::recorder::{Groups, Recorder};
 use crate::res::WgpuRes;
@@ -17,6 +18,22 @@ struct Params {
     texels: TexelLayout,
     nodes: u32,
     padding: [u32; 3],
+}
+
+fn constants(glossy: bool, textures: bool) -> [Constant; 2] {
+    [("GLOSSY", flag(glossy)), ("TEXTURED", flag(textures))]
+}
+
+/// The pipelines that a plan needs.
+pub(crate) fn kernels(plan: &GBufferPlan) -> Vec<KernelId> {
+    vec![
+        KernelId::new("entry/gbuffer", "visibility", &[]),
+        KernelId::new(
+            "entry/gbuffer",
+            "surface",
+            &constants(plan.glossy, plan.textures),
+        ),
+    ]
 }
 
 /// Records both kernels: which triangle each sample sees, and the surface there.
@@ -59,14 +76,9 @@ pub(crate) fn record(
         ],
         Groups::Items(count),
     )?;
-    let constants = [
-        ("GLOSSY", flag(plan.glossy)),
-        // A plan made by hand may ask for textures that the scene has not.
-        (
-            "TEXTURED",
-            flag(plan.textures && scene.len("corner_texcoord") > 0),
-        ),
-    ];
+    // A plan made by hand may ask for textures that the scene has not.
+    let textures = plan.textures && scene.len("corner_texcoord") > 0;
+    let constants = constants(plan.glossy, textures);
     let surface = context.kernel("entry/gbuffer", "surface", &constants)?;
     recorder.dispatch(
         &surface,

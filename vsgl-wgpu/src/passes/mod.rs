@@ -7,6 +7,24 @@ pub(crate) mod resolve;
 pub(crate) mod rsm;
 pub(crate) mod shade;
 
+use crate::kernel::KernelId;
+use vsgl_core::plan::Plan;
+
+/// Every pipeline that a plan needs.
+pub fn kernels(plan: &Plan) -> Vec<KernelId> {
+    let mut kernels = gbuffer::kernels(&plan.gbuffer);
+    let mut clusters = false;
+    if let Some(bounce) = &plan.bounce {
+        kernels.extend(rsm::kernels(&bounce.rsm));
+        kernels.extend(bounce.pdf.iter().flat_map(pdf::kernels));
+        kernels.extend(bounce.cluster.iter().flat_map(cluster::kernels));
+        clusters = bounce.cluster.is_some();
+    }
+    kernels.extend(shade::kernels(&plan.shade, clusters));
+    kernels.extend(resolve::kernels(plan));
+    kernels
+}
+
 /// A `bool` as an `override` constant.
 fn flag(value: bool) -> f64 {
     f64::from(u8::from(value))

@@ -1,11 +1,13 @@
 //! From samples to pixels.
 
 use super::flag;
+use crate::kernel::{Constant, KernelId};
 use crate::recorder::{Groups, Recorder};
 use crate::res::WgpuRes;
 use bytemuck::{Pod, Zeroable};
 use vsgl_core::Result;
 use vsgl_core::data::{GBuffer, Image, Radiance};
+use vsgl_core::plan::Plan;
 use vsgl_core::render::View;
 
 /// Twin of `Params` in `entry/resolve.wgsl`.
@@ -17,6 +19,21 @@ struct Params {
     aa: u32,
     samples_x: u32,
     samples: u32,
+}
+
+fn constants(glossy: bool, bounce: bool, bounce_glossy: bool) -> [Constant; 3] {
+    [
+        ("GLOSSY", flag(glossy)),
+        ("BOUNCE", flag(bounce)),
+        ("BOUNCE_GLOSSY", flag(bounce_glossy)),
+    ]
+}
+
+/// The pipelines that a plan needs.
+pub(crate) fn kernels(plan: &Plan) -> Vec<KernelId> {
+    let (glossy, bounce) = (plan.gbuffer.glossy, plan.shade.bounce);
+    let constants = constants(glossy, bounce, bounce && plan.shade.glossy_receivers);
+    vec![KernelId::new("entry/resolve", "resolve", &constants)]
 }
 
 /// Records the mean over the samples of each pixel.
@@ -48,11 +65,12 @@ pub(crate) fn record(
         samples_x: view.samples().0,
         samples: gbuffer.len("triangle") as u32,
     };
-    let constants = [
-        ("GLOSSY", flag(gbuffer.len("specular") > 0)),
-        ("BOUNCE", flag(radiance.len("indirect_diffuse") > 0)),
-        ("BOUNCE_GLOSSY", flag(radiance.len("indirect_glossy") > 0)),
-    ];
+    let has = |layer| radiance.len(layer) > 0;
+    let constants = constants(
+        gbuffer.len("specular") > 0,
+        has("indirect_diffuse"),
+        has("indirect_glossy"),
+    );
     let kernel = context.kernel("entry/resolve", "resolve", &constants)?;
     recorder.dispatch(
         &kernel,

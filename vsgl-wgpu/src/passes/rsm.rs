@@ -1,6 +1,7 @@
 //! What the lights see.
 
 use super::flag;
+use crate::kernel::{Constant, KernelId};
 use crate::params::TexelLayout;
 use crate::recorder::{Groups, Recorder};
 use crate::res::WgpuRes;
@@ -21,6 +22,22 @@ struct Params {
     size: u32,
     first: u32,
     count: u32,
+}
+
+fn constants(glossy: bool, textures: bool) -> [Constant; 2] {
+    [("GLOSSY", flag(glossy)), ("TEXTURED", flag(textures))]
+}
+
+/// The pipelines that a plan needs.
+pub(crate) fn kernels(plan: &RsmPlan) -> Vec<KernelId> {
+    vec![
+        KernelId::new("entry/rsm", "visibility", &[]),
+        KernelId::new(
+            "entry/rsm",
+            "surface",
+            &constants(plan.glossy, plan.textures),
+        ),
+    ]
 }
 
 /// Records both kernels for each light's map.
@@ -50,14 +67,9 @@ pub(crate) fn record(
     )?;
     made.write(context, "map", bytemuck::cast_slice(&maps));
     let visibility = context.kernel("entry/rsm", "visibility", &[])?;
-    let constants = [
-        ("GLOSSY", flag(plan.glossy)),
-        // A plan made by hand may ask for textures that the scene has not.
-        (
-            "TEXTURED",
-            flag(plan.textures && scene.len("corner_texcoord") > 0),
-        ),
-    ];
+    // A plan made by hand may ask for textures that the scene has not.
+    let textures = plan.textures && scene.len("corner_texcoord") > 0;
+    let constants = constants(plan.glossy, textures);
     let surface = context.kernel("entry/rsm", "surface", &constants)?;
     for (index, map) in maps.iter().enumerate() {
         let params = Params {

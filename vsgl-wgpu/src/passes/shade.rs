@@ -3,7 +3,7 @@
 use super::flag;
 use crate::backend::WgpuBackend;
 use crate::context::{Context, is_software};
-use crate::kernel::{Constant, Kernel};
+use crate::kernel::{Constant, Kernel, KernelId};
 use crate::pool::Pooled;
 use crate::recorder::{Binding, Groups, Recorder};
 use crate::res::WgpuRes;
@@ -145,7 +145,6 @@ impl Shading {
         };
         let lights_all = bounce.as_ref().map_or(0, |b| u64::from(b.lights)) + lights.len() as u64;
         let band = (pairs / (cost * lights_all.max(1))).clamp(1 << 12, u64::from(u32::MAX));
-        let constants = [("GLOSSY_RECEIVERS", flag(plan.glossy_receivers))];
         Ok(Self {
             radiance,
             params: Params {
@@ -159,7 +158,7 @@ impl Shading {
                 bounce: u32::from(plan.bounce),
                 padding: [0; 2],
             },
-            direct: context.kernel("entry/shade", "direct", &constants)?,
+            direct: context.kernel("entry/shade", "direct", &direct_constants(plan))?,
             direct_lights,
             bounce,
             band: band as u32,
@@ -257,7 +256,7 @@ impl Bounce {
                 let size = u64::from(rsm.head[0]);
                 let buffer = context.buffer("the point lights", 7 * 16 * texels)?;
                 let glossy = plan.glossy_senders && rsm.len("specular") > 0;
-                let made = [("GLOSSY_SENDERS", flag(glossy))];
+                let made = sender_constants(glossy);
                 let params = SenderParams {
                     map_texels: (size * size) as u32,
                     count: texels as u32,
@@ -274,6 +273,28 @@ impl Bounce {
             }
         })
     }
+}
+
+fn direct_constants(plan: &ShadePlan) -> [Constant; 1] {
+    [("GLOSSY_RECEIVERS", flag(plan.glossy_receivers))]
+}
+
+fn sender_constants(glossy: bool) -> [Constant; 1] {
+    [("GLOSSY_SENDERS", flag(glossy))]
+}
+
+/// The pipelines that a plan needs; `clusters` where lights are clusters, not texels.
+pub(crate) fn kernels(plan: &ShadePlan, clusters: bool) -> Vec<KernelId> {
+    let shade = |entry, constants: &[Constant]| KernelId::new("entry/shade", entry, constants);
+    let mut kernels = vec![shade("direct", &direct_constants(plan))];
+    if plan.bounce && clusters {
+        kernels.push(shade("vsgls", &constants(plan)));
+    } else if plan.bounce {
+        let made = sender_constants(plan.glossy_senders);
+        kernels.push(KernelId::new("entry/senders", "senders", &made));
+        kernels.push(shade("vpls", &constants(plan)));
+    }
+    kernels
 }
 
 /// The constants of the kernels that shade by virtual lights; numbers as in `phase/reflect.wgsl`.
