@@ -2,6 +2,7 @@
 
 mod coefficients;
 pub mod elementary;
+pub mod fold;
 pub mod moments;
 pub mod polynomial;
 pub mod vec;

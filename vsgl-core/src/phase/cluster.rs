@@ -6,12 +6,18 @@ use super::facing::geometric_normal;
 use crate::data::{
     DiffuseVsgl, MapRecord, NO_TRIANGLE, Rsm, SceneData, SpecularVsgl, Target, Vsgls,
 };
+use crate::math::fold::{halve, lanes};
 use crate::math::moments::{Moments, Scatter};
 use crate::math::vec::{luminance, normalize, reflect};
 use crate::plan::ClusterPlan;
 use crate::settings::{Emission, SharpnessFit, Variance};
 use crate::sg::{cosine, lobe, vmf};
 use glam::Vec3;
+
+/// Texels of a block of a cluster: its texels in their order, so many at a time.
+pub const BLOCK: usize = 32;
+/// Lanes that the sums of blocks are merged on.
+pub const LANES: usize = 32;
 
 /// Sums over the texels of a cluster. Every field adds up, or merges without cancellation.
 #[derive(Clone, Copy, Debug, Default)]
@@ -174,16 +180,23 @@ impl Sum {
         }
     }
 
-    /// Merges a list of texels as a binary tree over their order, so that rounding does not grow with the list.
-    pub fn of(rsm: &Rsm, texels: &[u32], plan: &ClusterPlan) -> Self {
-        match texels {
-            [] => Self::default(),
-            [one] => Self::texel(rsm, *one as usize, plan),
-            _ => {
-                let (first, second) = texels.split_at(texels.len() / 2);
-                Self::of(rsm, first, plan).merge(Self::of(rsm, second, plan))
-            }
+    /// The sum of at most [`BLOCK`] texels, merged by halving; zero for none.
+    pub fn of_texels(rsm: &Rsm, texels: &[u32], plan: &ClusterPlan) -> Self {
+        let mut sums = [Self::default(); BLOCK];
+        for (sum, &texel) in sums.iter_mut().zip(texels) {
+            *sum = Self::texel(rsm, texel as usize, plan);
         }
+        halve(&mut sums[..texels.len()], Self::merge).unwrap_or_default()
+    }
+
+    /// The sum of a cluster from those of its blocks, merged on [`LANES`] lanes; zero for none.
+    pub fn of_blocks(blocks: &[Self]) -> Self {
+        lanes::<LANES, _>(blocks.iter().copied(), Self::merge).unwrap_or_default()
+    }
+
+    /// Weight of both parts \[W\].
+    pub fn weight(&self) -> f32 {
+        self.diffuse.weight + self.specular.weight
     }
 }
 
@@ -408,23 +421,28 @@ pub fn target(scene: &SceneData, rsm: &Rsm, texel: u32) -> Target {
     }
 }
 
-/// The texel of a list at which the running sum of weights passes the share `u` of the whole, 0 ≤ u < 1.
+/// The entry of a list at which the running sum of weights passes `wanted`, and how much of `wanted` is left before it.
 ///
-/// Never one without weight, unless all are; 0 for an empty list.
-pub fn draw(weights: impl Iterator<Item = (u32, f32)> + Clone, u: f32) -> u32 {
-    let total: f32 = weights.clone().map(|(_, w)| w).sum();
-    let wanted = u * total;
+/// The texel that stands for a cluster is found twice so: `u` times the weight of all blocks picks a block, what is left
+/// picks a texel of it. Never an entry without weight, unless all are; the first of an empty list.
+pub fn pick(weights: impl Iterator<Item = f32>, wanted: f32) -> (usize, f32) {
     let mut passed = 0.0;
-    let mut drawn = 0;
-    for (texel, weight) in weights {
-        let before = passed;
-        passed += weight;
+    let mut picked = (0, 0.0);
+    for (index, weight) in weights.enumerate() {
         // The last with weight is kept where rounding lets the sum fall short.
-        drawn = if weight > 0.0 && before <= wanted {
-            texel
-        } else {
-            drawn
-        };
+        if weight > 0.0 && passed <= wanted {
+            picked = (index, wanted - passed);
+        }
+        passed += weight;
     }
-    drawn
+    picked
+}
+
+/// The texel of a cluster that its light's shadow ray ends at: drawn by weight, `u` in 0 ≤ u < 1.
+pub fn draw(rsm: &Rsm, texels: &[u32], blocks: &[Sum], u: f32) -> u32 {
+    let total = blocks.iter().fold(0.0, |total, b| total + b.weight());
+    let (block, rest) = pick(blocks.iter().map(Sum::weight), u * total);
+    let texels = texels.chunks(BLOCK).nth(block).unwrap_or_default();
+    let (texel, _) = pick(texels.iter().map(|&t| rsm.weight(t as usize)), rest);
+    texels.get(texel).copied().unwrap_or_default()
 }

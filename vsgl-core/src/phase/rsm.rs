@@ -151,4 +151,10 @@ impl Rsm {
         let specular = self.grazing.get(texel).map_or(0.0, |g| g[3]);
         (luminance(Vec3::new(d[0], d[1], d[2])), specular)
     }
+
+    /// Luminance of the flux that a texel reflects \[W\].
+    pub fn weight(&self, texel: usize) -> f32 {
+        let (diffuse, specular) = self.weights(texel);
+        diffuse + specular
+    }
 }
