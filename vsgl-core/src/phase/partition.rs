@@ -16,8 +16,8 @@
 //! - *Features* of a range are folded over blocks of [`BLOCK`] texels of the list by halving, those of the blocks over
 //!   [`LANES`] lanes: see [`crate::math::fold`].
 //! - *Nodes* of the tree: at first one a map, in order, empty ones included. The sets that a round tries to split take two
-//!   further indices each, in ascending order of theirs; the two stay empty if all texels fall on one side, and the set
-//!   is *whole*, never to be tried again. A round tries no more sets than there is room for in [`nodes`].
+//!   further indices each, in ascending order of theirs; the two stay empty if all texels fall on one side, and the rank
+//!   of the set becomes zero, so that it is never tried again. A round tries no more sets than there is room for in [`nodes`].
 //! - There are at most [`rounds`] rounds, so that a GPU can be told all of them beforehand.
 
 /// Texels of a block.

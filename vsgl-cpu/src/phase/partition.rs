@@ -155,14 +155,12 @@ struct Node {
     /// Its place in the list.
     range: Range<usize>,
     at: Statistics,
-    /// Own priority, or that of the least node above, which must be taken first.
+    /// Own priority, or that of the least node above, which must be taken first; 0 for sets that cannot be split.
     rank: f32,
     /// See [`Features::scale`].
     scale: f32,
     /// Index of the first of two children.
     children: Option<usize>,
-    /// Cannot be split: all texels fall on one side of the mean.
-    whole: bool,
 }
 
 impl Node {
@@ -173,7 +171,6 @@ impl Node {
             rank: at.priority.min(above),
             scale,
             children: None,
-            whole: false,
         }
     }
 }
@@ -203,7 +200,7 @@ impl Tree {
     /// Indices of the nodes that best-first splitting would split first, at most `splits`; in no order.
     fn best(&self, splits: usize) -> Vec<usize> {
         let mut best: Vec<usize> = (0..self.nodes.len())
-            .filter(|&i| self.nodes[i].rank > 0.0 && !self.nodes[i].whole)
+            .filter(|&i| self.nodes[i].rank > 0.0)
             .collect();
         if splits < best.len() {
             // Parents have lower indices than their children, so equal ranks keep them first.
@@ -262,13 +259,12 @@ impl Tree {
         halves.sort_unstable_by_key(|h| h.0);
         for (i, mut halves) in halves {
             if halves.iter().any(|half| half.range.is_empty()) {
-                self.nodes[i].whole = true;
+                self.nodes[i].rank = 0.0;
                 for half in &mut halves {
                     (half.range, half.rank) = (0..0, 0.0);
                 }
-            } else {
-                self.nodes[i].children = Some(self.nodes.len());
             }
+            self.nodes[i].children = Some(self.nodes.len());
             self.nodes.extend(halves);
         }
         !open.is_empty()
