@@ -4,6 +4,8 @@ mod backend;
 mod constants;
 mod context;
 mod kernel;
+#[cfg(test)]
+mod layout;
 mod params;
 mod passes;
 mod pool;

@@ -30,6 +30,7 @@ struct SpecularVsgl {
     f90: vec3<f32>,
     bulge: f32,
     covariance: array<f32, 6>,
+    padding: array<f32, 2>,
 }
 
 struct Target {

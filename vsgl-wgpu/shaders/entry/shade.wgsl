@@ -20,8 +20,6 @@ struct Params {
     nodes: u32,
     // Direct lights, room for clusters, or texels.
     lights: u32,
-    // 1 where the radiance has indirect columns.
-    bounce: u32,
 }
 
 struct Count {

@@ -98,3 +98,22 @@ pub(crate) fn record(
     )?;
     Ok(made)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Params;
+    use crate::layout::twins;
+
+    #[test]
+    fn parameters_lie_alike() {
+        twins!(
+            "entry/gbuffer",
+            "Params",
+            Params {
+                view,
+                texels,
+                nodes
+            }
+        );
+    }
+}

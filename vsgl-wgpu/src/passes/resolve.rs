@@ -85,3 +85,24 @@ pub(crate) fn record(
     )?;
     Ok(made)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Params;
+    use crate::layout::twins;
+
+    #[test]
+    fn parameters_lie_alike() {
+        twins!(
+            "entry/resolve",
+            "Params",
+            Params {
+                width,
+                height,
+                aa,
+                samples_x,
+                samples
+            }
+        );
+    }
+}

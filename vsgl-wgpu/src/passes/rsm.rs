@@ -108,3 +108,25 @@ pub(crate) fn record(
     }
     Ok(made)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Params;
+    use crate::layout::twins;
+
+    #[test]
+    fn parameters_lie_alike() {
+        twins!(
+            "entry/rsm",
+            "Params",
+            Params {
+                map,
+                texels,
+                nodes,
+                size,
+                first,
+                count
+            }
+        );
+    }
+}

@@ -35,8 +35,7 @@ struct Params {
     end: u32,
     nodes: u32,
     lights: u32,
-    bounce: u32,
-    padding: [u32; 2],
+    padding: [u32; 3],
 }
 
 /// Twin of `DirectLight` in `phase/direct.wgsl`.
@@ -155,8 +154,7 @@ impl Shading {
                 end: 0,
                 nodes: inputs.scene.len("node") as u32,
                 lights: lights.len() as u32,
-                bounce: u32::from(plan.bounce),
-                padding: [0; 2],
+                padding: [0; 3],
             },
             direct: context.kernel("entry/shade", "direct", &direct_constants(plan))?,
             direct_lights,
@@ -321,4 +319,44 @@ fn constants(plan: &ShadePlan) -> [Constant; 6] {
         ("DIFFUSE", diffuse),
         ("GLOSSY", glossy),
     ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{DirectLight, Params, SenderParams};
+    use crate::layout::twins;
+
+    #[test]
+    fn parameters_lie_alike() {
+        twins!(
+            "entry/shade",
+            "Params",
+            Params {
+                eye,
+                lift,
+                count,
+                first,
+                end,
+                nodes,
+                lights
+            }
+        );
+        twins!(
+            "entry/shade",
+            "DirectLight",
+            DirectLight {
+                position,
+                cos_inner,
+                axis,
+                cos_outer,
+                intensity,
+                padding,
+            }
+        );
+        twins!(
+            "entry/senders",
+            "Params",
+            SenderParams { map_texels, count }
+        );
+    }
 }

@@ -1,0 +1,172 @@
+//! Whether structs of shaders and their Rust twins lie in memory alike.
+
+use wgpu::naga::{self, TypeInner};
+
+/// Asserts that a struct of a shader has the members of its twin, at the same offsets.
+macro_rules! twins {
+    ($file:literal, $name:literal, $rust:ty { $($field:ident),* $(,)? }) => {
+        $crate::layout::check(
+            $file,
+            $name,
+            size_of::<$rust>(),
+            &[$((stringify!($field), std::mem::offset_of!($rust, $field))),*],
+        )
+    };
+}
+pub(crate) use twins;
+
+pub(crate) fn check(file: &str, name: &str, size: usize, fields: &[(&str, usize)]) {
+    let source = crate::link(&[file]);
+    let module = naga::front::wgsl::parse_str(&source)
+        .unwrap_or_else(|e| panic!("{}", e.emit_to_string(&source)));
+    let found = module.types.iter().find_map(|(_, ty)| match &ty.inner {
+        TypeInner::Struct { members, span } if ty.name.as_deref() == Some(name) => {
+            Some((members, *span as usize))
+        }
+        _ => None,
+    });
+    let (members, span) = found.unwrap_or_else(|| panic!("{file} has no struct `{name}`"));
+    let theirs: Vec<(&str, usize)> = members
+        .iter()
+        .map(|m| (m.name.as_deref().unwrap_or_default(), m.offset as usize))
+        .collect();
+    assert_eq!(theirs, fields, "{file}: {name}");
+    assert_eq!(span, size, "{file}: size of {name}");
+}
+
+#[test]
+fn records_of_the_scene_and_of_lights() {
+    use crate::params::{TexelLayout, View};
+    use vsgl_core::data::{DiffuseVsgl, MapRecord, MaterialRecord, SpecularVsgl, TextureRecord};
+    use vsgl_core::geom::BvhNode;
+
+    twins!(
+        "data/scene",
+        "BvhNode",
+        BvhNode {
+            min,
+            first,
+            max,
+            count
+        }
+    );
+    twins!(
+        "data/scene",
+        "MaterialRecord",
+        MaterialRecord {
+            base_color,
+            metallic,
+            dielectric_f0,
+            dielectric_f90,
+            roughness,
+            base_color_texture,
+            metallic_roughness_texture,
+            padding,
+        }
+    );
+    twins!(
+        "data/scene",
+        "TextureRecord",
+        TextureRecord {
+            first,
+            width,
+            height,
+            mode
+        }
+    );
+    twins!(
+        "data/scene",
+        "TexelLayout",
+        TexelLayout {
+            texture,
+            texel,
+            srgb,
+            rows
+        }
+    );
+    twins!(
+        "data/view",
+        "View",
+        View {
+            eye,
+            tan_half_fov,
+            forward,
+            width,
+            right,
+            height,
+            up,
+            aa,
+            stride,
+            samples_x,
+            samples_y,
+            padding,
+        }
+    );
+    twins!(
+        "data/lights",
+        "MapRecord",
+        MapRecord {
+            position,
+            tan_half_fov,
+            axis,
+            cos_inner,
+            right,
+            cos_outer,
+            up,
+            solid_angle,
+            intensity,
+            padding,
+        }
+    );
+    twins!(
+        "data/vsgls",
+        "DiffuseVsgl",
+        DiffuseVsgl {
+            position,
+            variance,
+            axis,
+            sharpness,
+            intensity,
+            complement,
+            light,
+            f0,
+            covariance,
+            f90,
+            bulge,
+        }
+    );
+    twins!(
+        "data/vsgls",
+        "SpecularVsgl",
+        SpecularVsgl {
+            position,
+            variance,
+            axis,
+            complement,
+            mirror,
+            complement_mirror,
+            light,
+            sharpness_lobe,
+            f0,
+            alpha,
+            f90,
+            bulge,
+            covariance,
+            padding,
+        }
+    );
+}
+
+#[test]
+fn strides_of_lights_are_their_sizes() {
+    use vsgl_core::data::{DiffuseVsgl, SpecularVsgl, Target};
+    let text = crate::link(&["data/vsgls"]);
+    for (name, size) in [
+        ("DIFFUSE_STRIDE", size_of::<DiffuseVsgl>()),
+        ("SPECULAR_STRIDE", size_of::<SpecularVsgl>()),
+        ("TARGET_STRIDE", size_of::<Target>()),
+    ] {
+        let line = format!("const {name}: u32 = {}u;", size / 16);
+        assert!(text.contains(&line), "{line}");
+    }
+}
