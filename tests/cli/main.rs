@@ -1,9 +1,11 @@
 //! The program from outside: what it prints and writes, and how it ends, for good input and for bad.
 
+mod adapters;
 mod compare;
 mod errors;
 mod help;
 mod info;
 mod interrupt;
+mod parity;
 mod render;
 mod run;

@@ -134,6 +134,8 @@ fn json_is_all_that_is_printed() {
     let document = ran.json();
     assert_eq!(document["schema_version"], 1);
     assert_eq!(document["backend"], "cpu");
+    assert_eq!(document["backend_reason"], "no GPU found");
+    assert_eq!(document["phase_clock"], "host");
     assert_eq!(document["scene"]["name"], "sample:cornell");
     let files = document["outputs"].as_array().expect("a list");
     assert_eq!(files.len(), 2);
@@ -169,7 +171,7 @@ fn progress_goes_to_standard_error_and_only_when_wanted() {
     let lines = folder.run(&format!("render -o a.png {SMALL} --progress always"));
     assert!(lines.err.contains("shade"), "{}", lines.err);
     assert!(!lines.ok().contains("..."));
-    let none = folder.run(&format!("render -o a.png {SMALL}"));
+    let none = folder.run(&format!("render -o a.png {SMALL} --backend cpu"));
     assert_eq!(none.err, "");
 }
 

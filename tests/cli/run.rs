@@ -80,23 +80,40 @@ impl Folder {
         names
     }
 
-    /// The program with these arguments, separated by blanks.
+    /// The program with these arguments, separated by blanks; it finds no Vulkan driver.
     pub(crate) fn command(&self, arguments: &str) -> Command {
+        let mut command = self.command_with_drivers(arguments);
+        command
+            .env("VK_DRIVER_FILES", "/nonexistent")
+            .env("VK_ICD_FILENAMES", "/nonexistent")
+            .env_remove("VK_ADD_DRIVER_FILES");
+        command
+    }
+
+    /// As [`Folder::command`], with the drivers of this machine.
+    pub(crate) fn command_with_drivers(&self, arguments: &str) -> Command {
         let mut command = Command::new(program());
         command
             .args(arguments.split_whitespace())
             .current_dir(self.0.path())
+            .env_remove("VSGL_ADAPTER")
+            // Without, Mesa complains on standard error.
+            .env("XDG_RUNTIME_DIR", self.0.path())
             .stdin(Stdio::null());
         command
     }
 
-    /// Runs the program with these arguments, separated by blanks.
+    /// Runs the program with these arguments, separated by blanks, without drivers.
     pub(crate) fn run(&self, arguments: &str) -> Ran {
-        let output = self
-            .command(arguments)
-            .output()
-            .expect("the program starts");
-        Ran {
+        Ran::of(&mut self.command(arguments))
+    }
+}
+
+impl Ran {
+    /// Runs a command to its end.
+    pub(crate) fn of(command: &mut Command) -> Self {
+        let output = command.output().expect("the program starts");
+        Self {
             code: output.status.code(),
             out: String::from_utf8_lossy(&output.stdout).into_owned(),
             err: String::from_utf8_lossy(&output.stderr).into_owned(),

@@ -15,6 +15,9 @@ pub enum Failure {
     /// Input that cannot be read or used.
     #[error("{0}")]
     Input(String),
+    /// No device to compute on, or one that failed.
+    #[error("{0}")]
+    Device(String),
     /// Output that cannot be written.
     #[error("{0}")]
     Output(String),
@@ -33,9 +36,11 @@ pub type Result<T> = std::result::Result<T, Failure>;
 pub const EXIT_CODES: &str = "\
 Exit codes:
   0    done
-  1    compare: a metric is over the limit of --fail-above; lobe: an error is over what is stated
+  1    compare: a metric is over the limit of --fail-above; lobe: an error is over what is stated;
+       parity: the backends differ by more than is tolerated
   2    wrong arguments
   3    input that cannot be read or used
+  4    no device to compute on, or one that failed
   5    output that cannot be written
   70   internal error
   130  interrupted";
@@ -47,6 +52,7 @@ impl Failure {
             Self::OverLimit(_) => 1,
             Self::Usage(_) => 2,
             Self::Input(_) => 3,
+            Self::Device(_) => 4,
             Self::Output(_) => 5,
             Self::Internal(_) => 70,
             Self::Interrupted(_) => 130,
@@ -71,6 +77,7 @@ impl From<vsgl_core::Error> for Failure {
         match error {
             Error::Scene { .. } => Self::Input(message),
             Error::Setting { .. } => Self::Usage(message),
+            Error::NoAdapter { .. } | Error::Device { .. } => Self::Device(message),
             Error::Cancelled(_) => Self::Interrupted(message),
             _ => Self::Internal(message),
         }

@@ -51,8 +51,21 @@ impl Job {
     /// [`Failure::Usage`] for arguments that do not fit the scene or each other,
     /// [`Failure::Input`] for files that cannot be read.
     pub fn new(scene: &SceneArgs, view: &ViewArgs, settings: &SettingsArgs) -> Result<Self> {
-        let settings = choose::settings(settings)?;
-        let size = view.size.unwrap_or(SIZE);
+        Self::with(scene, view, settings, &Defaults::default())
+    }
+
+    /// As [`Job::new`], with other values where none are given.
+    ///
+    /// # Errors
+    /// As [`Job::new`].
+    pub fn with(
+        scene: &SceneArgs,
+        view: &ViewArgs,
+        settings: &SettingsArgs,
+        defaults: &Defaults,
+    ) -> Result<Self> {
+        let settings = choose::settings(settings, defaults.lights)?;
+        let size = view.size.unwrap_or(defaults.size);
         let name = scene.scene.clone().unwrap_or_else(|| DEFAULT_SCENE.into());
         let read = read_scene(&name)?;
         let mut warnings = read.warnings.clone();
@@ -88,11 +101,24 @@ impl Job {
     }
 }
 
-/// Size of a picture unless told otherwise.
-const SIZE: Size = Size {
-    width: 640,
-    height: 360,
-};
+/// What is taken where nothing is given.
+#[derive(Clone, Copy, Debug)]
+pub struct Defaults {
+    /// Size of the picture.
+    pub size: Size,
+    /// Number of virtual lights; none: as the preset has it.
+    pub lights: Option<u32>,
+}
+
+impl Default for Defaults {
+    fn default() -> Self {
+        let (width, height) = (640, 360);
+        Self {
+            size: Size { width, height },
+            lights: None,
+        }
+    }
+}
 
 /// Most texels of all reflective shadow maps together: about 6 GB with all that is made of them.
 const TEXELS_MAX: u64 = 1 << 25;

@@ -5,12 +5,14 @@
 //! | [`args`] | what was typed |
 //! | [`job`] | what it means |
 //! | [`commands`] | one file a command |
+//! | [`device`] | which backend computes, and on what |
 //! | [`input`], [`output`], [`picture`] | files |
 //! | [`progress`] | what is shown meanwhile |
 //! | [`exit`] | failures and their exit codes |
 
 pub mod args;
 pub mod commands;
+pub mod device;
 pub mod exit;
 pub mod input;
 mod interrupt;

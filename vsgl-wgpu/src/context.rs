@@ -29,6 +29,38 @@ pub fn adapters() -> Vec<wgpu::AdapterInfo> {
     found().iter().map(wgpu::Adapter::get_info).collect()
 }
 
+/// An adapter, and what it can do that matters here.
+#[derive(Clone, Debug)]
+pub struct Survey {
+    /// What it says about itself.
+    pub info: wgpu::AdapterInfo,
+    /// Its limits.
+    pub limits: wgpu::Limits,
+    /// Whether it can measure its own time.
+    pub timestamps: bool,
+    /// Whether [`WgpuOptions::strict`] works on it.
+    pub strict: bool,
+}
+
+/// All adapters in the order of [`adapters`], with their abilities.
+pub fn survey() -> Vec<Survey> {
+    let look = |adapter: &wgpu::Adapter| Survey {
+        info: adapter.get_info(),
+        limits: adapter.limits(),
+        timestamps: adapter.features().contains(wgpu::Features::TIMESTAMP_QUERY),
+        strict: can_be_strict(adapter),
+    };
+    found().iter().map(look).collect()
+}
+
+/// Strict mode hands the driver SPIR-V of our own.
+fn can_be_strict(adapter: &wgpu::Adapter) -> bool {
+    adapter.get_info().backend == wgpu::Backend::Vulkan
+        && adapter
+            .features()
+            .contains(wgpu::Features::PASSTHROUGH_SHADERS)
+}
+
 /// Whether an adapter is a program on the processor, such as lavapipe or SwiftShader.
 pub fn is_software(info: &wgpu::AdapterInfo) -> bool {
     info.device_type == DeviceType::Cpu || info.name.contains("SwiftShader")
@@ -101,11 +133,7 @@ impl Context {
             features |= adapter.features() & wgpu::Features::TIMESTAMP_QUERY;
         }
         if options.strict {
-            if !adapter
-                .features()
-                .contains(wgpu::Features::PASSTHROUGH_SHADERS)
-                || info.backend != wgpu::Backend::Vulkan
-            {
+            if !can_be_strict(&adapter) {
                 return Err(Error::Device {
                     device: info.name,
                     problem: "strict mode needs Vulkan".into(),

@@ -17,7 +17,7 @@ mod texels;
 mod timing;
 
 pub use backend::WgpuBackend;
-pub use context::{Context, WgpuOptions, adapters, is_software};
+pub use context::{Context, Survey, WgpuOptions, adapters, is_software, survey};
 pub use kernel::{Constant, KernelId};
 pub use passes::kernels;
 pub use res::WgpuRes;

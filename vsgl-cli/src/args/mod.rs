@@ -2,6 +2,7 @@
 
 mod compare;
 mod lobe;
+mod parity;
 mod render;
 mod scene;
 mod settings;
@@ -9,6 +10,7 @@ mod words;
 
 pub use compare::{CompareArgs, Limit};
 pub use lobe::LobeArgs;
+pub use parity::ParityArgs;
 pub use render::{BackendName, InfoArgs, OutputArgs, RenderArgs, When};
 pub use scene::{SceneArgs, ViewArgs};
 pub use settings::SettingsArgs;
@@ -46,6 +48,8 @@ pub enum Command {
     Info(Box<InfoArgs>),
     /// Compare a picture with a reference: error metrics, limits, a false-colour map
     Compare(CompareArgs),
+    /// Compare the CPU with an adapter, phase by phase and number by number
+    Parity(Box<ParityArgs>),
     /// Judge the mathematics against exact values, and draw it
     Lobe(LobeArgs),
     /// Print a completion script for a shell

@@ -61,7 +61,7 @@ pub struct OutputArgs {
     /// Write pictures of the reflective shadow maps, the density and the clusters to DIR
     #[arg(long, value_name = "DIR")]
     pub dump: Option<PathBuf>,
-    /// What computes
+    /// What computes; the variable VSGL_ADAPTER names an adapter by a part of its name, `vsgl info` lists them
     #[arg(long, value_enum, default_value = "auto")]
     pub backend: BackendName,
     /// Threads of the CPU, 0 for one a core; the picture is the same for any number
@@ -107,10 +107,23 @@ pub struct InfoArgs {
 /// What computes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum BackendName {
-    /// The best there is: the CPU.
+    /// A real GPU if there is one, else the CPU.
     Auto,
     /// The processor's cores.
     Cpu,
+    /// Any adapter that wgpu finds: a GPU, or a software driver, which is slower than the CPU backend.
+    Wgpu,
+}
+
+impl BackendName {
+    /// Its name, if one was chosen.
+    pub fn chosen(self) -> Option<&'static str> {
+        match self {
+            Self::Auto => None,
+            Self::Cpu => Some("cpu"),
+            Self::Wgpu => Some("wgpu"),
+        }
+    }
 }
 
 /// Whether something is shown.

@@ -2,6 +2,7 @@
 
 use super::{SCHEMA_VERSION, facts};
 use crate::args::{InfoArgs, SceneArgs, SettingsArgs, ViewArgs};
+use crate::device;
 use crate::exit::{Failure, Result};
 use crate::job::{Job, settings_json};
 use crate::text;
@@ -57,12 +58,27 @@ fn command(job: &Job) -> String {
 }
 
 /// What computes, with its name on the command line.
-const BACKENDS: [(&str, &str); 1] = [("cpu", "all cores of the processor")];
+const BACKENDS: [(&str, &str); 2] = [
+    ("cpu", "all cores of the processor"),
+    (
+        "wgpu",
+        "an adapter, the first unless VSGL_ADAPTER names another",
+    ),
+];
 
 fn program_text() -> String {
     let mut out = format!("{}\n\nbackends\n", crate::output::software());
     for (name, about) in BACKENDS {
         out += &format!("  {name:<14}  {about}\n");
+    }
+    out += "\nadapters\n";
+    let adapters = vsgl_wgpu::survey();
+    for adapter in &adapters {
+        out += &format!("  {}\n", device::adapter_text(&adapter.info));
+        out += &format!("    {}\n", device::abilities_text(adapter));
+    }
+    if adapters.is_empty() {
+        out += "  none: no graphics driver was found\n";
     }
     out += "\nsamples (write sample:NAME)\n";
     for name in samples::NAMES {
@@ -97,6 +113,7 @@ fn program_json() -> Value {
         "schema_version": SCHEMA_VERSION,
         "version": env!("CARGO_PKG_VERSION"),
         "backends": BACKENDS.map(|(name, _)| name),
+        "adapters": vsgl_wgpu::survey().iter().map(device::survey_json).collect::<Vec<_>>(),
         "samples": samples.collect::<Vec<_>>(),
         "presets": presets.collect::<Vec<_>>(),
     })

@@ -6,7 +6,10 @@ mod facts;
 mod info;
 pub mod lobe;
 mod pages;
+mod parity;
 mod render;
+
+pub(crate) use facts::count;
 
 use crate::args::{Cli, Command};
 use crate::exit::Result;
@@ -23,6 +26,7 @@ pub fn run(cli: Cli) -> Result<()> {
         Command::Render(args) => render::run(&args),
         Command::Info(args) => info::run(&args),
         Command::Compare(args) => compare::run(&args),
+        Command::Parity(args) => parity::run(&args),
         Command::Lobe(args) => lobe::run(&args),
         Command::Completions(args) => pages::completions(&args),
         Command::Man(args) => pages::man(&args),

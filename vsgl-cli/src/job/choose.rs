@@ -15,14 +15,15 @@ const FOV: f64 = 45.0;
 /// Longest settings file in bytes.
 const SETTINGS_BYTES_MAX: u64 = 1 << 20;
 
-/// Settings from preset, file, keys and flags, in this order.
+/// Settings from preset, file, keys and flags, in this order; `lights` takes the place of the preset's number.
 ///
 /// # Errors
 /// [`Failure::Usage`] for an unknown key or value, [`Failure::Input`] for a settings file that cannot be read or is
 /// wrong.
-pub fn settings(args: &SettingsArgs) -> Result<Settings> {
+pub fn settings(args: &SettingsArgs, lights: Option<u32>) -> Result<Settings> {
     let preset = args.preset.as_deref().and_then(Preset::from_word);
     let mut settings = preset.unwrap_or(Preset::Default).settings();
+    settings.lights = lights.unwrap_or(settings.lights);
     if let Some(path) = &args.file {
         read_settings(path, &mut settings)?;
     }
@@ -254,11 +255,11 @@ mod tests {
             lights: Some("30".into()),
             ..SettingsArgs::default()
         };
-        let found = settings(&args).expect("all valid");
+        let found = settings(&args, Some(7)).expect("all valid");
         assert_eq!((found.lights, found.rsm, found.kernel), (30, 128, 2.0));
         assert_eq!(found.emission, Preset::Paper2016.settings().emission);
         std::fs::write(&path, "rsm = 64\nlights = many\n").expect("writable");
-        let failure = settings(&args).map_err(|f| (f.code(), f.to_string()));
+        let failure = settings(&args, None).map_err(|f| (f.code(), f.to_string()));
         let (code, message) = failure.expect_err("not a number");
         assert_eq!(code, 3);
         assert!(message.contains("line 2"), "{message}");

@@ -4,6 +4,7 @@ pub mod color;
 pub mod exposure;
 pub mod exr;
 pub mod font;
+pub mod legend;
 mod pending;
 pub mod png;
 pub mod srgb;

@@ -4,7 +4,7 @@ use super::meaning::{Group, Kind, Meaning};
 use super::place::Layout;
 use super::tolerance::{Tolerance, Values};
 use super::ulps::ulps;
-use super::verdict::{ColumnVerdict, DIFFERENT, Worst};
+use super::verdict::{ColumnVerdict, DIFFERENT, UNJUDGED, Worst};
 use crate::data::{Column, Scalar};
 
 /// One column on both sides, of one length.
@@ -107,7 +107,8 @@ impl Pair {
                 (worst, differs) = (f64::INFINITY, true);
             }
             let judged = decision.is_none() && !doubt.get(entry).copied().unwrap_or(false);
-            tally.unjudged += usize::from(!judged && self.has_values());
+            let excused = !judged && self.has_values();
+            tally.unjudged += usize::from(excused);
             for ((first, group), &mean) in self.groups().zip(&sizes) {
                 if matches!(group.kind, Kind::Decision | Kind::Light) {
                     continue;
@@ -146,9 +147,10 @@ impl Pair {
                 }
             }
             tally.differing += usize::from(differs);
-            tally.errors.push(match worst.is_finite() {
-                true => worst as f32,
-                false => DIFFERENT,
+            tally.errors.push(match worst {
+                f64::INFINITY => DIFFERENT,
+                _ if excused => UNJUDGED,
+                error => error as f32,
             });
         }
         self.verdict(tally, tolerance, head)

@@ -49,4 +49,4 @@ pub use compare::{Origin, Side, agreement, compare};
 pub use place::Place;
 pub use tolerance::{Tolerance, Values};
 pub use ulps::ulps;
-pub use verdict::{ColumnVerdict, Comparison, DIFFERENT, Worst};
+pub use verdict::{ColumnVerdict, Comparison, DIFFERENT, UNJUDGED, Worst};

@@ -6,6 +6,8 @@ use super::tolerance::Tolerance;
 
 /// Entry of [`ColumnVerdict::errors`] where a decision differs, or a number is not finite.
 pub const DIFFERENT: f32 = f32::INFINITY;
+/// Entry of [`ColumnVerdict::errors`] whose values were not judged, since a decision that governs them differs.
+pub const UNJUDGED: f32 = -1.0;
 
 /// Two resources of one type, compared.
 #[derive(Clone, Debug)]
@@ -78,7 +80,7 @@ pub struct ColumnVerdict {
     pub mean_relative: f64,
     /// The greatest difference: a number that is not finite, else a decision, else the value furthest off.
     pub worst: Option<Worst>,
-    /// Greatest relative error in each entry, or [`DIFFERENT`].
+    /// Greatest relative error in each entry, or [`DIFFERENT`], or [`UNJUDGED`].
     pub errors: Vec<f32>,
     /// Whether it is within the tolerance.
     pub passed: bool,
@@ -118,9 +120,44 @@ impl ColumnVerdict {
             let name = if worst.name.is_empty() { "" } else { " " };
             line += &format!(
                 ", worst at {}:{name}{} {} for {}",
-                worst.place, worst.name, worst.tested, worst.reference
+                worst.place,
+                worst.name,
+                number(worst.tested),
+                number(worst.reference)
             );
         }
         line
+    }
+}
+
+/// The fewest digits that tell the number from all others of its kind.
+fn number(value: f64) -> String {
+    let single = value as f32;
+    let size = value.abs();
+    match f64::from(single) == value || value.is_nan() {
+        true if value != 0.0 && !(1e-4..1e7).contains(&size) => format!("{single:e}"),
+        true => single.to_string(),
+        false => value.to_string(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_the_digits_of_a_single() {
+        for (value, text) in [
+            (f64::from(0.1f32), "0.1"),
+            (f64::from(2.5e-7f32), "2.5e-7"),
+            (-3.0, "-3"),
+            (0.0, "0"),
+            (4_294_967_295.0, "4294967295"),
+            (16_777_217.0, "16777217"),
+            (f64::NAN, "NaN"),
+            (f64::INFINITY, "inf"),
+        ] {
+            assert_eq!(number(value), text);
+        }
     }
 }

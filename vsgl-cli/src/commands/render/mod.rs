@@ -2,8 +2,9 @@
 
 mod report;
 
-use super::{dump, facts};
-use crate::args::{BackendName, OutputArgs, RenderArgs, When};
+use super::dump;
+use crate::args::{OutputArgs, RenderArgs, When};
+use crate::device::{self, Chosen, Host};
 use crate::exit::{Failure, Result};
 use crate::job::Job;
 use crate::output::{self, Format, Metadata, Pending};
@@ -13,10 +14,8 @@ use crate::{interrupt, text};
 use report::{Report, Seconds, Written};
 use serde_json::Value;
 use std::time::Instant;
-use vsgl_core::backend::Backend;
 use vsgl_core::data::{Image, SceneData};
 use vsgl_core::render::render;
-use vsgl_cpu::CpuBackend;
 
 /// Renders and writes.
 ///
@@ -39,18 +38,20 @@ pub(super) fn run(args: &RenderArgs) -> Result<()> {
     interrupt::listen()?;
     let files = output::open_all(&out.files)?;
     let dump = out.dump.as_deref().map(dump::prepare).transpose()?;
-    match out.backend {
-        BackendName::Auto | BackendName::Cpu => {
-            let backend = CpuBackend::new(out.threads)?;
-            let device = facts::count(backend.threads(), "thread");
-            work(&backend, &device, &job, out, files, dump)
+    match device::choose(out.backend, out.threads)? {
+        Chosen::Cpu(backend, why) => {
+            if let Some(why) = why.as_ref().filter(|_| !out.quiet && !out.json) {
+                text::warn(&format!("note: computing on the CPU: {why}"));
+            }
+            work(&backend, why, &job, out, files, dump)
         }
+        Chosen::Wgpu(backend) => work(&*backend, None, &job, out, files, dump),
     }
 }
 
-fn work<B: Backend>(
+fn work<B: Host>(
     backend: &B,
-    device: &str,
+    why: Option<String>,
     job: &Job,
     out: &OutputArgs,
     files: Vec<(Format, Pending)>,
@@ -72,7 +73,9 @@ fn work<B: Backend>(
             written.push(Written::new(path.to_string_lossy().into_owned(), format));
         }
     }
-    seconds.push(("write".into(), start.elapsed().as_secs_f64()));
+    seconds
+        .list
+        .push(("write".into(), start.elapsed().as_secs_f64()));
     let clusters = match &senders.vsgls {
         Some(vsgls) => Some(backend.download(vsgls)?.count),
         None => None,
@@ -81,7 +84,9 @@ fn work<B: Backend>(
         job,
         out,
         backend: backend.name(),
-        device,
+        device: backend.device(),
+        adapter: backend.adapter(),
+        why,
         clusters,
         seconds,
         written,
@@ -97,14 +102,15 @@ fn work<B: Backend>(
 }
 
 /// Renders. What the camera sees is let go: a large picture needs the room while it is written.
-fn draw<B: Backend>(
+fn draw<B: Host>(
     backend: &B,
     job: &Job,
     out: &OutputArgs,
 ) -> Result<(Image, dump::Senders<B>, Seconds)> {
     let start = Instant::now();
     let scene = backend.upload(SceneData::new(&job.scene))?;
-    let mut seconds = vec![("scene".to_owned(), start.elapsed().as_secs_f64())];
+    let mut list = vec![("scene".to_owned(), start.elapsed().as_secs_f64())];
+    let start = Instant::now();
     let progress = Progress::new(if out.quiet { When::Never } else { out.progress });
     let frame = render(
         backend,
@@ -114,11 +120,16 @@ fn draw<B: Backend>(
         &job.plan,
         &progress,
     );
-    for (phase, time) in progress.finish() {
-        seconds.push((phase.to_string(), time.as_secs_f64()));
-    }
+    let called = progress.finish();
     let frame = frame?;
     let image = backend.download(&frame.image)?;
+    let wall = start.elapsed().as_secs_f64();
+    let device = backend.times()?;
+    let clock = if device.is_some() { "device" } else { "host" };
+    for (phase, time) in device.unwrap_or(called) {
+        list.push((phase.to_string(), time.as_secs_f64()));
+    }
+    let seconds = Seconds { list, wall, clock };
     let senders = dump::Senders {
         rsm: frame.rsm,
         pdf: frame.pdf,

@@ -24,15 +24,25 @@ impl Written {
     }
 }
 
-/// Wall time of each phase.
-pub(super) type Seconds = Vec<(String, f64)>;
+/// Where the time went, in seconds.
+pub(super) struct Seconds {
+    /// Each phase, and what is before and after them.
+    pub(super) list: Vec<(String, f64)>,
+    /// From the first phase until the picture was here, by the host's clock.
+    pub(super) wall: f64,
+    /// Whose clock the phases were measured by.
+    pub(super) clock: &'static str,
+}
 
 /// What was done.
 pub(super) struct Report<'a> {
     pub(super) job: &'a Job,
     pub(super) out: &'a OutputArgs,
     pub(super) backend: &'static str,
-    pub(super) device: &'a str,
+    pub(super) device: String,
+    pub(super) adapter: Option<Value>,
+    /// Why the CPU was taken, if it was not asked for.
+    pub(super) why: Option<String>,
     pub(super) clusters: Option<u32>,
     pub(super) seconds: Seconds,
     pub(super) written: Vec<Written>,
@@ -44,6 +54,9 @@ impl Report<'_> {
     fn command(&self) -> String {
         let mut words = self.job.words();
         words.extend(display_words(self.out));
+        if let Some(name) = self.out.backend.chosen() {
+            words.extend(["--backend".into(), name.into()]);
+        }
         for file in &self.out.files {
             words.extend(["-o".into(), file.to_string_lossy().into_owned()]);
         }
@@ -67,11 +80,19 @@ impl Report<'_> {
             out += &format!(", {clusters}");
         }
         out += "\n";
-        let total: f64 = self.seconds.iter().map(|(_, s)| s).sum();
-        for (phase, seconds) in &self.seconds {
-            out += &format!("  {phase:<8} {seconds:>9.3} s\n");
+        let total: f64 = self.seconds.list.iter().map(|(_, s)| s).sum();
+        let line = |what: &str, seconds: f64| format!("  {what:<8} {seconds:>9.3} s");
+        for (phase, seconds) in &self.seconds.list {
+            out += &format!("{}\n", line(phase, *seconds));
         }
-        out += &format!("  {:<8} {total:>9.3} s\n", "all");
+        if self.seconds.clock == "host" {
+            out += &format!("{}\n", line("all", total));
+        } else {
+            // Phases overlap with the host's work: their sum says little.
+            let note =
+                "from the first phase to the picture by the host's clock; phases by the adapter's";
+            out += &format!("{}  {note}\n", line("picture", self.seconds.wall));
+        }
         let (width, height) = self.job.view.pixels();
         out += &format!("written   {width}x{height}\n");
         for file in &self.written {
@@ -96,12 +117,16 @@ impl Report<'_> {
         document["schema_version"] = SCHEMA_VERSION.into();
         document["command"] = self.command().into();
         document["backend"] = self.backend.into();
-        document["device"] = self.device.into();
+        document["device"] = self.device.as_str().into();
+        document["adapter"] = self.adapter.clone().into();
+        document["backend_reason"] = self.why.as_deref().into();
         document["virtual_lights"] = self.clusters.into();
         document["width"] = width.into();
         document["height"] = height.into();
         document["seed"] = self.job.seed.into();
-        document["phases"] = self.seconds.iter().map(phase).collect();
+        document["phases"] = self.seconds.list.iter().map(phase).collect();
+        document["phase_clock"] = self.seconds.clock.into();
+        document["picture_seconds"] = self.seconds.wall.into();
         document["outputs"] = self.written.iter().map(file).collect();
         document
     }
