@@ -13,7 +13,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 /// If the variable is set and the folder is not there.
 pub fn assets(folder: &str, tests: &str) -> Option<PathBuf> {
     let Some(root) = std::env::var_os("VSGL_ASSETS") else {
-        skipped(tests);
+        skipped(tests, "VSGL_ASSETS is not set");
         return None;
     };
     let path = Path::new(&root).join(folder);
@@ -22,10 +22,10 @@ pub fn assets(folder: &str, tests: &str) -> Option<PathBuf> {
 }
 
 /// Counts and names what is skipped, on the standard error stream itself: what a passing test prints is not shown.
-fn skipped(tests: &str) {
+pub(crate) fn skipped(tests: &str, why: &str) {
     static COUNT: AtomicUsize = AtomicUsize::new(0);
     let count = COUNT.fetch_add(1, Ordering::Relaxed) + 1;
-    let line = format!("skipped {count}: {tests} (VSGL_ASSETS is not set)\n");
+    let line = format!("skipped {count}: {tests} ({why})\n");
     // A closed stream is no reason to fail.
     let _ = std::io::stderr().write_all(line.as_bytes());
 }

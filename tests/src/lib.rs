@@ -2,6 +2,7 @@
 
 pub mod assets;
 pub mod gltf;
+pub mod gpu;
 pub mod measure;
 pub mod random;
 pub mod render;
