@@ -2,4 +2,5 @@
 
 mod chain;
 mod faults;
+mod functions;
 mod shaders;

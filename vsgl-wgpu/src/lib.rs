@@ -9,6 +9,7 @@ mod layout;
 mod params;
 mod passes;
 mod pool;
+mod probe;
 mod recorder;
 mod res;
 mod shaders;
@@ -20,6 +21,8 @@ pub use backend::WgpuBackend;
 pub use context::{Context, Survey, WgpuOptions, adapters, is_software, survey};
 pub use kernel::{Constant, KernelId};
 pub use passes::kernels;
+#[doc(hidden)]
+pub use probe::Probe;
 pub use res::WgpuRes;
 pub use shaders::{MODULES, link};
 pub use timing::{Clock, Timings};

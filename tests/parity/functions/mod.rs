@@ -1,0 +1,254 @@
+//! Every function of the shaders' mathematics against its twin in core, over a million arguments each.
+//!
+//! In strict mode on a software driver the bits must agree. In the ordinary path a driver may regroup sums and products;
+//! a result may then be 16 roundings off, or a share of its size that the table states: 1e-5 unless the function magnifies
+//! the rounding of what goes into it.
+
+mod arguments;
+mod glossy;
+mod listing;
+mod lobes;
+mod math;
+mod table;
+
+use self::arguments::rows;
+use self::table::{Arguments, Entry};
+use std::time::Instant;
+use vsgl_core::parity::ulps;
+use vsgl_wgpu::{Context, Probe, WgpuOptions, is_software, link};
+
+/// Calls of each function: 2^20 in all.
+const COUNT: usize = 1 << 20;
+
+/// The whole table.
+fn entries() -> Vec<Entry> {
+    let mut all = math::entries();
+    all.extend(lobes::entries());
+    all.extend(glossy::entries());
+    all
+}
+
+/// The device of one path, or none where there is no driver: an error where one is required.
+fn context(strict: bool) -> Option<Context> {
+    let options = WgpuOptions {
+        strict,
+        ..WgpuOptions::default()
+    };
+    match Context::headless(&options) {
+        Ok(context) => Some(context),
+        Err(error) => {
+            assert!(std::env::var_os("CI").is_none(), "{error}");
+            eprintln!("skipped: {error}");
+            None
+        }
+    }
+}
+
+/// What was worst in the comparison of one function on one path.
+#[derive(Default)]
+struct Worst {
+    failures: usize,
+    /// Error over what is allowed; call; place among all numbers.
+    at: Option<(f64, usize, usize)>,
+    /// Largest error over the size of its part.
+    relative: f64,
+    /// Numbers whose bits are not the same.
+    differ: usize,
+}
+
+/// Whether the numbers are the same, zeros of both signs being one; the smallest may be zero on a device that has none.
+fn same(cpu: f32, gpu: f32, flushes: bool) -> bool {
+    let tiny = |x: f32| flushes && x.abs() < f32::MIN_POSITIVE;
+    cpu == gpu || (tiny(cpu) && tiny(gpu))
+}
+
+/// The numbers of one call, and where they begin among all.
+struct Call<'a> {
+    number: usize,
+    arguments: Arguments<'a>,
+    cpu: &'a [f32],
+    gpu: &'a [f32],
+}
+
+impl Worst {
+    fn add(&mut self, entry: &Entry, path: &Path, call: &Call<'_>) {
+        if call
+            .cpu
+            .iter()
+            .zip(call.gpu)
+            .all(|(c, g)| same(*c, *g, path.flushes))
+        {
+            return;
+        }
+        let scale = (entry.scale)(&call.arguments);
+        let mut at = 0;
+        for part in entry.parts {
+            let span = at..at + part.len();
+            at += part.len();
+            let size = call.cpu[span.clone()]
+                .iter()
+                .fold(scale, |m, x| m.max(x.abs()));
+            for i in span {
+                let (c, g) = (call.cpu[i], call.gpu[i]);
+                if same(c, g, path.flushes) {
+                    continue;
+                }
+                self.differ += 1;
+                let apart = (f64::from(c) - f64::from(g)).abs();
+                let relative = apart / f64::from(size.max(f32::MIN_POSITIVE));
+                self.relative = self.relative.max(relative);
+                let error = if path.context.strict() || !c.is_finite() || !g.is_finite() {
+                    f64::INFINITY
+                } else if ulps(c, g) <= 16 {
+                    0.0
+                } else {
+                    relative / f64::from(entry.relative)
+                };
+                self.failures += usize::from(error > 1.0);
+                if self.at.is_none_or(|(most, ..)| error > most) {
+                    let place = call.number * call.cpu.len() + i;
+                    self.at = Some((error, call.number, place));
+                }
+            }
+        }
+    }
+}
+
+/// A way in which shaders are compiled.
+struct Path {
+    name: &'static str,
+    context: Context,
+    /// Numbers below the smallest normal one become zero.
+    flushes: bool,
+}
+
+/// The paths of this machine: strict and ordinary; of a real GPU the latter only, since it rounds quotients and roots as
+/// it likes.
+fn paths() -> Vec<Path> {
+    let path = |name, strict| {
+        let context = context(strict)?;
+        let info = context.info();
+        println!(
+            "{name}: {} ({}), {:?}",
+            info.name, info.driver_info, info.backend
+        );
+        let flushes = !info.name.contains("llvmpipe");
+        Some(Path {
+            name,
+            flushes,
+            context,
+        })
+    };
+    let ordinary = path("ordinary", false);
+    let software = ordinary
+        .as_ref()
+        .is_some_and(|p| is_software(p.context.info()));
+    let strict = if software { path("strict", true) } else { None };
+    strict.into_iter().chain(ordinary).collect()
+}
+
+/// Compares one function on all paths; a line for each failure.
+fn compare(entry: &Entry, seed: u64, paths: &[Path], failed: &mut Vec<String>) {
+    let width = entry.width();
+    let results = entry.results();
+    let numbers = rows(&entry.kinds, COUNT, seed);
+    let arguments = |call: usize| Arguments {
+        kinds: &entry.kinds,
+        row: &numbers[call * width..][..width],
+    };
+    let mut cpu = Vec::with_capacity(COUNT * results);
+    for call in 0..COUNT {
+        (entry.rust)(&arguments(call), &mut cpu);
+    }
+    if let Some(at) = cpu.iter().position(|x| x.is_nan()) {
+        let row = arguments(at / results).row;
+        failed.push(format!("{}: NaN in Rust at {row:?}", entry.name));
+        return;
+    }
+    let source = format!("{}{}", link(&[entry.file]), entry.shader());
+    for path in paths {
+        let gpu = Probe::new(&path.context, &source)
+            .and_then(|p| p.run(&path.context, &numbers, (COUNT / 64) as u32, cpu.len()))
+            .unwrap_or_else(|e| panic!("{}: {e}", entry.name));
+        let mut worst = Worst::default();
+        for number in 0..COUNT {
+            let span = number * results..(number + 1) * results;
+            let call = Call {
+                number,
+                arguments: arguments(number),
+                cpu: &cpu[span.clone()],
+                gpu: &gpu[span],
+            };
+            worst.add(entry, path, &call);
+        }
+        if worst.differ > 0 {
+            println!(
+                "{}, {}: {} numbers differ, by {:.1e} of their size at worst",
+                entry.name, path.name, worst.differ, worst.relative
+            );
+        }
+        if let (true, Some((_, call, place))) = (worst.failures > 0, worst.at) {
+            failed.push(format!(
+                "{}, {}: {} of {COUNT} calls fail; worst at {:?}: result {} is {:e} in Rust, {:e} in WGSL",
+                entry.name,
+                path.name,
+                worst.failures,
+                arguments(call).row,
+                place % results,
+                cpu[place],
+                gpu[place]
+            ));
+        }
+    }
+}
+
+/// `VSGL_PARITY_FUNCTION=name` takes only functions whose names contain it.
+#[test]
+fn functions_agree() {
+    let paths = paths();
+    if paths.is_empty() {
+        return;
+    }
+    let only = std::env::var("VSGL_PARITY_FUNCTION").unwrap_or_default();
+    let clock = Instant::now();
+    let mut failed = Vec::new();
+    let all = entries();
+    for (number, entry) in all.iter().enumerate() {
+        if entry.name.contains(&only) {
+            compare(entry, 1 + number as u64, &paths, &mut failed);
+        }
+    }
+    println!(
+        "{} functions, {COUNT} calls each: {:.0} s",
+        all.len(),
+        clock.elapsed().as_secs_f64()
+    );
+    assert!(
+        failed.is_empty(),
+        "{} fail:\n{}",
+        failed.len(),
+        failed.join("\n")
+    );
+}
+
+/// That a fault would be found: one that shows in a handful of calls in a million, and one of a single rounding.
+#[test]
+fn a_wrong_function_is_found() {
+    let paths = paths();
+    if paths.is_empty() {
+        return;
+    }
+    let fault = |call: &str| {
+        let mut failed = Vec::new();
+        let wrong = math::entries().swap_remove(0).by(call);
+        compare(&wrong, 1, &paths[..1], &mut failed);
+        failed
+    };
+    assert!(fault("elementary_exp(x0)").is_empty());
+    assert_eq!(fault("elementary_exp(x0) * 1.0000001").len(), 1);
+    assert_eq!(
+        fault("select(elementary_exp(x0), 0.0, x0 == 88.0)").len(),
+        1
+    );
+    assert_eq!(fault("exp(x0)").len(), 1);
+}
