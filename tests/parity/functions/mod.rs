@@ -13,9 +13,11 @@ mod table;
 
 use self::arguments::rows;
 use self::table::{Arguments, Entry};
+use std::sync::MutexGuard;
 use std::time::Instant;
 use vsgl_core::parity::ulps;
-use vsgl_wgpu::{Context, Probe, WgpuOptions, is_software, link};
+use vsgl_tests::gpu::{Tier, device};
+use vsgl_wgpu::{Context, Probe, WgpuBackend, link};
 
 /// Calls of each function: 2^20 in all.
 const COUNT: usize = 1 << 20;
@@ -26,22 +28,6 @@ fn entries() -> Vec<Entry> {
     all.extend(lobes::entries());
     all.extend(glossy::entries());
     all
-}
-
-/// The device of one path, or none where there is no driver: an error where one is required.
-fn context(strict: bool) -> Option<Context> {
-    let options = WgpuOptions {
-        strict,
-        ..WgpuOptions::default()
-    };
-    match Context::headless(&options) {
-        Ok(context) => Some(context),
-        Err(error) => {
-            assert!(std::env::var_os("CI").is_none(), "{error}");
-            eprintln!("skipped: {error}");
-            None
-        }
-    }
 }
 
 /// What was worst in the comparison of one function on one path.
@@ -97,7 +83,7 @@ impl Worst {
                 let apart = (f64::from(c) - f64::from(g)).abs();
                 let relative = apart / f64::from(size.max(f32::MIN_POSITIVE));
                 self.relative = self.relative.max(relative);
-                let error = if path.context.strict() || !c.is_finite() || !g.is_finite() {
+                let error = if path.context().strict() || !c.is_finite() || !g.is_finite() {
                     f64::INFINITY
                 } else if ulps(c, g) <= 16 {
                     0.0
@@ -117,34 +103,39 @@ impl Worst {
 /// A way in which shaders are compiled.
 struct Path {
     name: &'static str,
-    context: Context,
-    /// Numbers below the smallest normal one become zero.
+    device: MutexGuard<'static, WgpuBackend>,
+    /// Numbers below the smallest normal one may be zero.
     flushes: bool,
 }
 
-/// The paths of this machine: strict and ordinary; of a real GPU the latter only, since it rounds quotients and roots as
-/// it likes.
-fn paths() -> Vec<Path> {
+impl Path {
+    fn context(&self) -> &Context {
+        self.device.context()
+    }
+}
+
+/// The paths of an adapter: strict and ordinary; of a real GPU the latter only, since it rounds quotients and roots as it
+/// likes.
+fn paths(tier: Tier, test: &str) -> Vec<Path> {
     let path = |name, strict| {
-        let context = context(strict)?;
-        let info = context.info();
+        let device = device(tier, strict, test)?;
+        let info = device.context().info();
         println!(
             "{name}: {} ({}), {:?}",
             info.name, info.driver_info, info.backend
         );
-        let flushes = !info.name.contains("llvmpipe");
         Some(Path {
             name,
-            flushes,
-            context,
+            device,
+            flushes: tier != Tier::Lavapipe,
         })
     };
-    let ordinary = path("ordinary", false);
-    let software = ordinary
-        .as_ref()
-        .is_some_and(|p| is_software(p.context.info()));
-    let strict = if software { path("strict", true) } else { None };
-    strict.into_iter().chain(ordinary).collect()
+    let strict = (tier != Tier::Hardware).then(|| path("strict", true));
+    strict
+        .flatten()
+        .into_iter()
+        .chain(path("ordinary", false))
+        .collect()
 }
 
 /// Compares one function on all paths; a line for each failure.
@@ -167,8 +158,8 @@ fn compare(entry: &Entry, seed: u64, paths: &[Path], failed: &mut Vec<String>) {
     }
     let source = format!("{}{}", link(&[entry.file]), entry.shader());
     for path in paths {
-        let gpu = Probe::new(&path.context, &source)
-            .and_then(|p| p.run(&path.context, &numbers, (COUNT / 64) as u32, cpu.len()))
+        let gpu = Probe::new(path.context(), &source)
+            .and_then(|p| p.run(path.context(), &numbers, (COUNT / 64) as u32, cpu.len()))
             .unwrap_or_else(|e| panic!("{}: {e}", entry.name));
         let mut worst = Worst::default();
         for number in 0..COUNT {
@@ -202,13 +193,12 @@ fn compare(entry: &Entry, seed: u64, paths: &[Path], failed: &mut Vec<String>) {
     }
 }
 
-/// `VSGL_PARITY_FUNCTION=name` takes only functions whose names contain it.
-#[test]
-fn functions_agree() {
-    let paths = paths();
+fn check(tier: Tier, test: &str) {
+    let paths = paths(tier, test);
     if paths.is_empty() {
         return;
     }
+    // Only functions whose names contain it.
     let only = std::env::var("VSGL_PARITY_FUNCTION").unwrap_or_default();
     let clock = Instant::now();
     let mut failed = Vec::new();
@@ -218,11 +208,8 @@ fn functions_agree() {
             compare(entry, 1 + number as u64, &paths, &mut failed);
         }
     }
-    println!(
-        "{} functions, {COUNT} calls each: {:.0} s",
-        all.len(),
-        clock.elapsed().as_secs_f64()
-    );
+    let seconds = clock.elapsed().as_secs_f64();
+    println!("{} entries of {COUNT} calls: {seconds:.0} s", all.len());
     assert!(
         failed.is_empty(),
         "{} fail:\n{}",
@@ -231,10 +218,25 @@ fn functions_agree() {
     );
 }
 
+#[test]
+fn functions_agree_on_lavapipe() {
+    check(Tier::Lavapipe, "functions on lavapipe");
+}
+
+#[test]
+fn functions_agree_on_swiftshader() {
+    check(Tier::SwiftShader, "functions on SwiftShader");
+}
+
+#[test]
+fn functions_agree_on_hardware() {
+    check(Tier::Hardware, "functions on hardware");
+}
+
 /// That a fault would be found: one that shows in a handful of calls in a million, and one of a single rounding.
 #[test]
 fn a_wrong_function_is_found() {
-    let paths = paths();
+    let paths = paths(Tier::Lavapipe, "faults in functions");
     if paths.is_empty() {
         return;
     }

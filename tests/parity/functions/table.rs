@@ -10,6 +10,9 @@ use vsgl_core::sg::lobe::SgLobe;
 use vsgl_core::sg::polar::PolarMoments;
 use vsgl_core::sg::vmf::MeanLength;
 
+/// A call in Rust, which appends the numbers of its result.
+type Call = Box<dyn Fn(&Arguments<'_>, &mut Vec<f32>)>;
+
 /// A function in both languages.
 pub(super) struct Entry {
     /// Shader file that holds it.
@@ -23,7 +26,7 @@ pub(super) struct Entry {
     /// Parts of the result in WGSL, each a group of numbers of one size; `r` is the result.
     pub(super) parts: &'static [&'static [&'static str]],
     /// The call in Rust: from arguments to the numbers of all parts.
-    pub(super) rust: Box<dyn Fn(&Arguments<'_>, &mut Vec<f32>)>,
+    pub(super) rust: Call,
     /// Error in the ordinary path over the size of a part.
     pub(super) relative: f32,
     /// Size of a part where its numbers are smaller.
