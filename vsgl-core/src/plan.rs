@@ -3,8 +3,8 @@
 use crate::error::{Error, Result};
 use crate::scene::SceneFacts;
 use crate::settings::{
-    Clustering, DiffuseForm, Emission, GlossyForm, Method, OcclusionMethod, PdfMethod, Settings,
-    SharpnessFit, Variance,
+    Clustering, DiffuseForm, Emission, GlossyForm, Method, OcclusionMethod, PdfMethod, Primary,
+    Settings, SharpnessFit, Variance,
 };
 
 /// The phases that run and their parameters. Nothing that is not in here runs.
@@ -38,6 +38,8 @@ pub struct GBufferPlan {
     pub glossy: bool,
     /// Read textures.
     pub textures: bool,
+    /// What decides which triangle a sample sees.
+    pub primary: Primary,
 }
 
 /// The way of the light from the maps to the lights that shade.
@@ -215,9 +217,18 @@ impl Plan {
                 OcclusionMethod::None
             },
         };
+        reasons.decide(
+            "raster",
+            &[(
+                settings.primary == Primary::Raster,
+                "the camera's rays say which triangle is seen",
+            )],
+            "the GPU draws triangle ids, which may differ from those of rays along edges",
+        );
         let gbuffer = GBufferPlan {
             glossy: receivers,
             textures,
+            primary: settings.primary,
         };
         Ok(Self {
             gbuffer,

@@ -32,6 +32,8 @@ pub struct Settings {
     pub glossy: GlossyForm,
     /// Whether and how indirect light is blocked.
     pub occlusion: OcclusionMethod,
+    /// What decides which triangle the camera sees.
+    pub primary: Primary,
 }
 
 impl Default for Settings {
@@ -50,6 +52,7 @@ impl Default for Settings {
             diffuse: DiffuseForm::V13,
             glossy: GlossyForm::NdfFilter,
             occlusion: OcclusionMethod::Rays,
+            primary: Primary::Rays,
         }
     }
 }
@@ -170,6 +173,16 @@ choice! {
     }
 }
 choice! {
+    /// What decides which triangle the camera sees.
+    pub enum Primary {
+        /// A ray through each sample: the definition, on every backend.
+        Rays = "rays",
+        /// The GPU's rasteriser: faster on many GPUs, and another triangle here and there along edges. The backend wgpu
+        /// alone has it.
+        Raster = "raster",
+    }
+}
+choice! {
     /// Named settings.
     pub enum Preset {
         /// The forms of this library: [`Settings::default`].
@@ -217,6 +230,7 @@ impl Settings {
         "diffuse",
         "glossy",
         "occlusion",
+        "primary",
     ];
 
     /// All keys with their values, as [`Settings::set`] takes them.
@@ -235,6 +249,7 @@ impl Settings {
             self.diffuse.to_string(),
             self.glossy.to_string(),
             self.occlusion.to_string(),
+            self.primary.to_string(),
         ];
         Self::KEYS.iter().copied().zip(values).collect()
     }
@@ -271,6 +286,7 @@ impl Settings {
                     OcclusionMethod::WORDS,
                 )?
             }
+            "primary" => self.primary = word(key, value, Primary::from_word, Primary::WORDS)?,
             _ => {
                 let remedy = format!("keys are {}", Self::KEYS.join(", "));
                 return Err(Error::setting(key, "no such key", remedy));

@@ -35,6 +35,7 @@ use vsgl_core::data::{Columns, GBuffer, Image, Pdf, Radiance, Rsm, SceneData, Vs
 use vsgl_core::plan::{ClusterPlan, GBufferPlan, PdfPlan, RsmPlan, ShadePlan};
 use vsgl_core::render::{Observer, View};
 use vsgl_core::scene::Light;
+use vsgl_core::settings::Primary;
 use vsgl_core::{Error, Result};
 
 pub use phase::block;
@@ -90,6 +91,13 @@ impl Backend for CpuBackend {
         view: &View,
         plan: &GBufferPlan,
     ) -> Result<Arc<GBuffer>> {
+        if plan.primary == Primary::Raster {
+            return Err(Error::setting(
+                "primary",
+                "the backend cpu has no rasteriser",
+                "take `--backend wgpu`, or `--primary rays`",
+            ));
+        }
         Ok(Arc::new(
             self.pool.install(|| phase::gbuffer::run(scene, view, plan)),
         ))

@@ -1,12 +1,15 @@
 //! The device, and what all phases share on it.
 
+use crate::drawing::{Drawing, DrawingId, Drawings};
 use crate::kernel::{Constant, Kernel, KernelId, Kernels};
-use crate::passes;
 use crate::pool::{Pool, Pooled};
+use crate::raster::{Targets, TargetsKept};
 use crate::recorder::Uniforms;
 use crate::timing::{Timer, Timings};
+use crate::{passes, raster};
 use std::sync::{Arc, Mutex};
 use vsgl_core::plan::Plan;
+use vsgl_core::settings::Primary;
 use vsgl_core::{Error, Result};
 use wgpu::{Device, DeviceType, Queue};
 
@@ -95,6 +98,8 @@ pub struct Context {
     info: wgpu::AdapterInfo,
     strict: bool,
     kernels: Kernels,
+    drawings: Drawings,
+    raster: TargetsKept,
     pool: Arc<Pool>,
     uniforms: Uniforms,
     timer: Option<Timer>,
@@ -188,6 +193,8 @@ impl Context {
         }
         Ok(Self {
             kernels: Kernels::default(),
+            drawings: Drawings::default(),
+            raster: TargetsKept::default(),
             pool: Arc::new(Pool::default()),
             uniforms: Uniforms::new(&device),
             timer: options.timing.then(|| Timer::new(&device, &queue)),
@@ -283,6 +290,19 @@ impl Context {
         made.map_err(|problem| self.error(problem, "report it, with the adapter's name and driver"))
     }
 
+    /// The render pipeline of a file of shaders for a target.
+    pub(crate) fn drawing(&self, id: &DrawingId) -> Result<Arc<Drawing>> {
+        let made = self.drawings.get(&self.device, id);
+        made.map_err(|problem| self.error(problem, "report it, with the adapter's name and driver"))
+    }
+
+    /// The textures that triangle ids are drawn into.
+    pub(crate) fn raster_targets(&self, width: u32, height: u32) -> Result<Arc<Targets>> {
+        let targets = self.raster.get(&self.device, width, height);
+        targets
+            .map_err(|problem| self.error(problem, "take a smaller picture, or `--primary rays`"))
+    }
+
     /// Makes every pipeline that a plan needs, so that its first frame need not wait for compilers.
     ///
     /// # Errors
@@ -290,6 +310,9 @@ impl Context {
     pub fn prepare(&self, plan: &Plan) -> Result<()> {
         for id in passes::kernels(plan) {
             self.made(&id)?;
+        }
+        if plan.gbuffer.primary == Primary::Raster {
+            self.drawing(&raster::ID)?;
         }
         Ok(())
     }

@@ -87,7 +87,7 @@ impl Kernel {
         let info = Validator::new(ValidationFlags::all(), Capabilities::empty())
             .validate(&parsed)
             .map_err(|e| format!("{label}: {}", e.emit_to_string(&source)))?;
-        let globals = globals(&parsed, &info, id.entry)?;
+        let globals = globals(&parsed, &info, &[id.entry])?;
         let entries: Vec<wgpu::BindGroupLayoutEntry> = globals
             .iter()
             .map(|(_, binding, kind)| wgpu::BindGroupLayoutEntry {
@@ -155,24 +155,24 @@ impl Kernel {
     }
 }
 
-/// Name, number and kind of what an entry point binds in group 0, in order of the numbers.
-fn globals(
+/// Name, number and kind of what entry points bind in group 0, in order of the numbers.
+pub(crate) fn globals(
     module: &naga::Module,
     info: &naga::valid::ModuleInfo,
-    entry: &str,
+    entries: &[&str],
 ) -> Result<Vec<(String, u32, wgpu::BindingType)>, String> {
-    let index = module
-        .entry_points
-        .iter()
-        .position(|e| e.name == entry)
-        .ok_or_else(|| format!("no entry point `{entry}`"))?;
-    let used = info.get_entry_point(index);
+    let mut used = Vec::new();
+    for entry in entries {
+        let index = module.entry_points.iter().position(|e| e.name == *entry);
+        let index = index.ok_or_else(|| format!("no entry point `{entry}`"))?;
+        used.push(info.get_entry_point(index));
+    }
     let mut globals = Vec::new();
     for (handle, variable) in module.global_variables.iter() {
         let (Some(binding), Some(name)) = (variable.binding, variable.name.clone()) else {
             continue;
         };
-        if !used[handle].is_empty() {
+        if used.iter().any(|used| !used[handle].is_empty()) {
             globals.push((name, binding.binding, kind(module, variable)?));
         }
     }
@@ -194,25 +194,54 @@ fn kind(
         AddressSpace::Storage { access } => Ok(buffer(wgpu::BufferBindingType::Storage {
             read_only: !access.contains(naga::StorageAccess::STORE),
         })),
-        _ => match module.types[variable.ty].inner {
-            naga::TypeInner::Image {
-                class:
-                    naga::ImageClass::Sampled {
-                        kind: naga::ScalarKind::Uint,
-                        ..
-                    },
-                ..
-            } => Ok(wgpu::BindingType::Texture {
-                sample_type: wgpu::TextureSampleType::Uint,
-                view_dimension: wgpu::TextureViewDimension::D2Array,
-                multisampled: false,
-            }),
-            _ => Err(format!(
-                "binding of an unexpected kind: {:?}",
-                variable.name
-            )),
-        },
+        _ => texture(&module.types[variable.ty].inner)
+            .ok_or_else(|| format!("binding of an unexpected kind: {:?}", variable.name)),
     }
+}
+
+/// Textures of two dimensions, and arrays of them, that are read texel by texel or stored to. Of floats none is filtered, so
+/// that formats that cannot be, and depth, are accepted.
+fn texture(kind: &naga::TypeInner) -> Option<wgpu::BindingType> {
+    let naga::TypeInner::Image {
+        dim: naga::ImageDimension::D2,
+        arrayed,
+        class,
+    } = *kind
+    else {
+        return None;
+    };
+    let view_dimension = if arrayed {
+        wgpu::TextureViewDimension::D2Array
+    } else {
+        wgpu::TextureViewDimension::D2
+    };
+    let sample_type = match class {
+        naga::ImageClass::Sampled {
+            kind: naga::ScalarKind::Uint,
+            multi: false,
+        } => wgpu::TextureSampleType::Uint,
+        naga::ImageClass::Sampled {
+            kind: naga::ScalarKind::Float,
+            multi: false,
+        } => wgpu::TextureSampleType::Float { filterable: false },
+        naga::ImageClass::Storage { format, access } if access == naga::StorageAccess::STORE => {
+            return Some(wgpu::BindingType::StorageTexture {
+                access: wgpu::StorageTextureAccess::WriteOnly,
+                format: match format {
+                    naga::StorageFormat::Rgba16Float => wgpu::TextureFormat::Rgba16Float,
+                    naga::StorageFormat::Rgba32Float => wgpu::TextureFormat::Rgba32Float,
+                    _ => return None,
+                },
+                view_dimension,
+            });
+        }
+        _ => return None,
+    };
+    Some(wgpu::BindingType::Texture {
+        sample_type,
+        view_dimension,
+        multisampled: false,
+    })
 }
 
 /// wgpu numbers the bindings of a layout from 0 without gaps; words that it does not translate must do the same.

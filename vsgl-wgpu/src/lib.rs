@@ -3,6 +3,7 @@
 mod backend;
 mod constants;
 mod context;
+mod drawing;
 mod kernel;
 #[cfg(test)]
 mod layout;
@@ -10,6 +11,7 @@ mod params;
 mod passes;
 mod pool;
 mod probe;
+mod raster;
 mod recorder;
 mod res;
 mod shaders;

@@ -1,9 +1,11 @@
-//! Dispatches, recorded one after the other into one compute pass.
+//! Dispatches and drawings, recorded one after the other. Dispatches in a row share one compute pass.
 
 use crate::context::Context;
+use crate::drawing::Drawing;
 use crate::kernel::{INVOCATIONS, Kernel};
 use std::sync::atomic::{AtomicU64, Ordering};
 use vsgl_core::Result;
+use vsgl_core::render::Phase;
 
 /// Bytes of one set of parameters, which is also the least alignment that WebGPU promises.
 const SLOT: u64 = 256;
@@ -76,10 +78,13 @@ fn grid(groups: u64) -> [u32; 3] {
     [groups.div_ceil(rows) as u32, rows as u32, 1]
 }
 
-/// Records dispatches.
+/// Records dispatches and drawings.
 pub(crate) struct Recorder<'a> {
     context: &'a Context,
-    pass: wgpu::ComputePass<'a>,
+    encoder: &'a mut wgpu::CommandEncoder,
+    phase: Phase,
+    /// The compute pass of the last dispatches, until something is drawn.
+    pass: Option<wgpu::ComputePass<'static>>,
 }
 
 impl<'a> Recorder<'a> {
@@ -87,14 +92,14 @@ impl<'a> Recorder<'a> {
     pub(crate) fn new(
         context: &'a Context,
         encoder: &'a mut wgpu::CommandEncoder,
-        phase: vsgl_core::render::Phase,
+        phase: Phase,
     ) -> Self {
-        let timestamps = context.timer().and_then(|timer| timer.begin(phase));
-        let pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
-            label: Some(&format!("vsgl {phase}")),
-            timestamp_writes: timestamps.as_ref().map(|t| t.writes()),
-        });
-        Self { context, pass }
+        Self {
+            context,
+            encoder,
+            phase,
+            pass: None,
+        }
     }
 
     pub(crate) fn context(&self) -> &'a Context {
@@ -109,17 +114,89 @@ impl<'a> Recorder<'a> {
         bound: &[(&str, Binding<'_>)],
         groups: Groups<'_>,
     ) -> Result<()> {
+        let group = self.group(
+            &kernel.label,
+            &kernel.layout,
+            &kernel.bindings,
+            params,
+            bound,
+        )?;
+        let (context, phase, encoder) = (self.context, self.phase, &mut *self.encoder);
+        let pass = self.pass.get_or_insert_with(|| {
+            let timestamps = context.timer().and_then(|timer| timer.begin(phase));
+            let descriptor = wgpu::ComputePassDescriptor {
+                label: Some(&format!("vsgl {phase}")),
+                timestamp_writes: timestamps.as_ref().map(|t| t.writes()),
+            };
+            encoder.begin_compute_pass(&descriptor).forget_lifetime()
+        });
+        pass.set_pipeline(&kernel.pipeline);
+        pass.set_bind_group(0, &group, &[]);
+        let [x, y, z] = match groups {
+            Groups::Items(items) => grid(items.div_ceil(u64::from(INVOCATIONS))),
+            Groups::Count(count) => grid(count),
+            Groups::Indirect(buffer, offset) => {
+                pass.dispatch_workgroups_indirect(buffer, offset);
+                return Ok(());
+            }
+        };
+        pass.dispatch_workgroups(x, y, z);
+        Ok(())
+    }
+
+    /// Draws so many vertices, which the shader pulls from what it binds, in a render pass of its own.
+    pub(crate) fn draw<P: bytemuck::Pod>(
+        &mut self,
+        drawing: &Drawing,
+        params: &P,
+        bound: &[(&str, Binding<'_>)],
+        attachments: (
+            wgpu::RenderPassColorAttachment<'_>,
+            Option<wgpu::RenderPassDepthStencilAttachment<'_>>,
+        ),
+        vertices: u32,
+    ) -> Result<()> {
+        let bindings = &drawing.bindings;
+        let group = self.group(&drawing.label, &drawing.layout, bindings, params, bound)?;
+        // A pass ends when it is dropped, and the next cannot begin before.
+        self.pass = None;
+        let timer = self.context.timer();
+        let timestamps = timer.and_then(|timer| timer.begin(self.phase));
+        let (color, depth) = attachments;
+        let mut pass = self.encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some(&drawing.label),
+            color_attachments: &[Some(color)],
+            depth_stencil_attachment: depth,
+            timestamp_writes: timestamps.as_ref().map(|t| t.render_writes()),
+            occlusion_query_set: None,
+            multiview_mask: None,
+        });
+        pass.set_pipeline(&drawing.pipeline);
+        pass.set_bind_group(0, &group, &[]);
+        pass.draw(0..vertices, 0..1);
+        Ok(())
+    }
+
+    /// What a shader binds, by the names in it.
+    fn group<P: bytemuck::Pod>(
+        &self,
+        label: &str,
+        layout: &wgpu::BindGroupLayout,
+        bindings: &[(String, u32)],
+        params: &P,
+        bound: &[(&str, Binding<'_>)],
+    ) -> Result<wgpu::BindGroup> {
         let uniforms = self.context.uniforms();
         let queue = self.context.queue();
-        let mut entries = Vec::with_capacity(kernel.bindings.len());
-        for (name, binding) in &kernel.bindings {
+        let mut entries = Vec::with_capacity(bindings.len());
+        for (name, binding) in bindings {
             let resource = if name == "params" {
                 let bytes = bytemuck::bytes_of(params);
                 wgpu::BindingResource::Buffer(uniforms.write(queue, bytes))
             } else {
                 let found = bound.iter().find(|(n, _)| n == name);
                 let Some((_, what)) = found else {
-                    let problem = format!("{}: nothing is bound to `{name}`", kernel.label);
+                    let problem = format!("{label}: nothing is bound to `{name}`");
                     return Err(self.context.error(problem, "report it"));
                 };
                 match what {
@@ -139,25 +216,11 @@ impl<'a> Recorder<'a> {
                 resource,
             });
         }
-        let group = self
-            .context
-            .device()
-            .create_bind_group(&wgpu::BindGroupDescriptor {
-                label: Some(&kernel.label),
-                layout: &kernel.layout,
-                entries: &entries,
-            });
-        self.pass.set_pipeline(&kernel.pipeline);
-        self.pass.set_bind_group(0, &group, &[]);
-        let [x, y, z] = match groups {
-            Groups::Items(items) => grid(items.div_ceil(u64::from(INVOCATIONS))),
-            Groups::Count(count) => grid(count),
-            Groups::Indirect(buffer, offset) => {
-                self.pass.dispatch_workgroups_indirect(buffer, offset);
-                return Ok(());
-            }
+        let descriptor = wgpu::BindGroupDescriptor {
+            label: Some(label),
+            layout,
+            entries: &entries,
         };
-        self.pass.dispatch_workgroups(x, y, z);
-        Ok(())
+        Ok(self.context.device().create_bind_group(&descriptor))
     }
 }

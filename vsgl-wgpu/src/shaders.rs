@@ -28,6 +28,7 @@ pub const MODULES: &[(&str, &str)] = modules![
     "data/vsgls",
     "data/vsgls_read",
     "entry/gbuffer",
+    "entry/raster",
     "entry/resolve",
     "entry/rsm",
     "entry/senders",

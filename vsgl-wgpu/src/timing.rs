@@ -56,6 +56,14 @@ impl Timestamps<'_> {
             end_of_pass_write_index: Some(self.first + 1),
         }
     }
+
+    pub(crate) fn render_writes(&self) -> wgpu::RenderPassTimestampWrites<'_> {
+        wgpu::RenderPassTimestampWrites {
+            query_set: self.set,
+            beginning_of_pass_write_index: Some(self.first),
+            end_of_pass_write_index: Some(self.first + 1),
+        }
+    }
 }
 
 impl Timer {

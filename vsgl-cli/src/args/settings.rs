@@ -5,6 +5,7 @@ use clap::builder::PossibleValuesParser;
 use std::path::PathBuf;
 use vsgl_core::settings::{
     Clustering, DiffuseForm, Emission, GlossyForm, Method, OcclusionMethod, PdfMethod, Preset,
+    Primary,
 };
 
 /// Preset, file, keys and flags; each overrides those before it.
@@ -50,11 +51,14 @@ pub struct SettingsArgs {
     /// Integral over the receiver's specular part
     #[arg(long, value_parser = PossibleValuesParser::new(GlossyForm::WORDS))]
     pub glossy: Option<String>,
+    /// What decides which triangle the camera sees; raster needs the backend wgpu, and differs along edges [default: rays]
+    #[arg(long, value_parser = PossibleValuesParser::new(Primary::WORDS))]
+    pub primary: Option<String>,
 }
 
 impl SettingsArgs {
     /// Keys of core's settings that have a flag of the same name.
-    pub const FLAGS: [&'static str; 10] = [
+    pub const FLAGS: [&'static str; 11] = [
         "method",
         "lights",
         "rsm",
@@ -65,6 +69,7 @@ impl SettingsArgs {
         "occlusion",
         "diffuse",
         "glossy",
+        "primary",
     ];
 
     /// The flags with their values, in the order of [`SettingsArgs::FLAGS`].
@@ -80,6 +85,7 @@ impl SettingsArgs {
             &self.occlusion,
             &self.diffuse,
             &self.glossy,
+            &self.primary,
         ];
         let pairs = Self::FLAGS.into_iter().zip(values);
         pairs.filter_map(|(key, value)| Some((key, value.as_deref()?)))

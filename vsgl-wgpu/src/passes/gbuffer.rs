@@ -3,12 +3,14 @@
 use super::flag;
 use crate::kernel::{Constant, KernelId};
 use crate::params::{TexelLayout, View};
+use crate::raster;
 use crate::recorder::{Groups, Recorder};
 use crate::res::WgpuRes;
 use bytemuck::{Pod, Zeroable};
 use vsgl_core::Result;
 use vsgl_core::data::{GBuffer, SceneData};
 use vsgl_core::plan::GBufferPlan;
+use vsgl_core::settings::Primary;
 
 /// Twin of `Params` in `entry/gbuffer.wgsl`.
 #[repr(C)]
@@ -26,14 +28,18 @@ fn constants(glossy: bool, textures: bool) -> [Constant; 2] {
 
 /// The pipelines that a plan needs.
 pub(crate) fn kernels(plan: &GBufferPlan) -> Vec<KernelId> {
-    vec![
+    let mut kernels = vec![
         KernelId::new("entry/gbuffer", "visibility", &[]),
         KernelId::new(
             "entry/gbuffer",
             "surface",
             &constants(plan.glossy, plan.textures),
         ),
-    ]
+    ];
+    if plan.primary == Primary::Raster {
+        kernels.extend(raster::kernels());
+    }
+    kernels
 }
 
 /// Records both kernels: which triangle each sample sees, and the surface there.
@@ -65,17 +71,21 @@ pub(crate) fn record(
         nodes: scene.len("node") as u32,
         padding: [0; 3],
     };
-    let visibility = context.kernel("entry/gbuffer", "visibility", &[])?;
-    recorder.dispatch(
-        &visibility,
-        &params,
-        &[
-            ("node", scene.bind("node")),
-            ("corner", scene.bind("corner")),
-            ("triangle_out", made.bind("triangle")),
-        ],
-        Groups::Items(count),
-    )?;
+    if plan.primary == Primary::Raster && raster::fits(view) {
+        raster::record(recorder, scene, view, &made)?;
+    } else {
+        let visibility = context.kernel("entry/gbuffer", "visibility", &[])?;
+        recorder.dispatch(
+            &visibility,
+            &params,
+            &[
+                ("node", scene.bind("node")),
+                ("corner", scene.bind("corner")),
+                ("triangle_out", made.bind("triangle")),
+            ],
+            Groups::Items(count),
+        )?;
+    }
     // A plan made by hand may ask for textures that the scene has not.
     let textures = plan.textures && scene.len("corner_texcoord") > 0;
     let constants = constants(plan.glossy, textures);
