@@ -3,4 +3,5 @@
 mod chain;
 mod faults;
 mod functions;
+mod raster;
 mod shaders;

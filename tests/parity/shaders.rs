@@ -8,8 +8,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use vsgl_core::plan::Plan;
 use vsgl_core::scene::{SceneFacts, samples};
 use vsgl_core::settings::{
-    Clustering, DiffuseForm, Emission, GlossyForm, Method, OcclusionMethod, Settings, SharpnessFit,
-    Variance,
+    Clustering, DiffuseForm, Emission, GlossyForm, Method, OcclusionMethod, Primary, Settings,
+    SharpnessFit, Variance,
 };
 use vsgl_wgpu::{KernelId, MODULES, kernels, link, wgpu};
 
@@ -63,6 +63,11 @@ fn all_settings() -> Vec<Settings> {
     each!(diffuse: DiffuseForm);
     each!(glossy: GlossyForm);
     each!(occlusion: OcclusionMethod);
+    // Nothing else depends on it.
+    all.push(Settings {
+        primary: Primary::Raster,
+        ..Settings::default()
+    });
     all
 }
 
@@ -111,14 +116,33 @@ fn every_entry_with_every_set_of_constants_is_portable() {
             let (resolved, info) =
                 pipeline_constants::process_overrides(&module, &info, stage, &values)
                     .unwrap_or_else(|e| panic!("{id:?}: {e}"));
-            write(id, &resolved, &info);
+            let entry = (ShaderStage::Compute, id.entry.to_owned());
+            write(&format!("{id:?}"), entry, &resolved, &info);
         }
     }
 }
 
+#[test]
+fn what_is_drawn_is_portable() {
+    let mut drawn = 0;
+    for (file, _) in MODULES
+        .iter()
+        .filter(|(name, _)| name.starts_with("entry/"))
+    {
+        let (module, info) = parsed(file);
+        for entry in &module.entry_points {
+            if entry.stage != ShaderStage::Compute {
+                let name = format!("{file}:{}", entry.name);
+                write(&name, (entry.stage, entry.name.clone()), &module, &info);
+                drawn += 1;
+            }
+        }
+    }
+    assert!(drawn >= 2, "{drawn} entries that draw");
+}
+
 /// Writes the languages of Vulkan, Direct3D and Metal.
-fn write(id: &KernelId, module: &Module, info: &ModuleInfo) {
-    let entry = (ShaderStage::Compute, id.entry.to_owned());
+fn write(id: &str, entry: (ShaderStage, String), module: &Module, info: &ModuleInfo) {
     let pipeline = spv::PipelineOptions {
         shader_stage: entry.0,
         entry_point: entry.1.clone(),
@@ -128,7 +152,7 @@ fn write(id: &KernelId, module: &Module, info: &ModuleInfo) {
         ..spv::Options::default()
     };
     spv::write_vec(module, info, &options, Some(&pipeline))
-        .unwrap_or_else(|e| panic!("{id:?}: SPIR-V: {e}"));
+        .unwrap_or_else(|e| panic!("{id}: SPIR-V: {e}"));
     let options = hlsl::Options {
         fake_missing_bindings: true,
         ..hlsl::Options::default()
@@ -139,7 +163,7 @@ fn write(id: &KernelId, module: &Module, info: &ModuleInfo) {
     let mut text = String::new();
     hlsl::Writer::new(&mut text, &options, &pipeline)
         .write(module, info, None)
-        .unwrap_or_else(|e| panic!("{id:?}: HLSL: {e}"));
+        .unwrap_or_else(|e| panic!("{id}: HLSL: {e}"));
     let options = msl::Options {
         fake_missing_bindings: true,
         lang_version: (2, 1),
@@ -150,7 +174,7 @@ fn write(id: &KernelId, module: &Module, info: &ModuleInfo) {
         ..msl::PipelineOptions::default()
     };
     msl::write_string(module, info, &options, &pipeline)
-        .unwrap_or_else(|e| panic!("{id:?}: Metal: {e}"));
+        .unwrap_or_else(|e| panic!("{id}: Metal: {e}"));
 }
 
 #[test]

@@ -184,3 +184,11 @@ fn settings_that_do_not_go_together_are_refused_with_a_remedy() {
         assert!(error.contains(word), "{error}");
     }
 }
+
+#[test]
+fn raster_is_a_choice_with_a_reason() {
+    let (rays, raster) = (shot("").plan(), shot("primary=raster").plan());
+    assert!(reason(&rays, "raster").is_some_and(|(runs, why)| !runs && why.contains("rays")));
+    assert!(reason(&raster, "raster").is_some_and(|(runs, why)| runs && why.contains("edges")));
+    assert_ne!(rays.gbuffer, raster.gbuffer);
+}
