@@ -216,3 +216,31 @@ impl TargetsKept {
         Ok(targets)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Params;
+    use crate::layout::twins;
+
+    #[test]
+    fn parameters_lie_alike() {
+        twins!(
+            "entry/raster",
+            "Params",
+            Params {
+                eye,
+                near,
+                right,
+                scale_x,
+                up,
+                scale_y,
+                forward,
+                offset_x,
+                offset_y,
+                width,
+                height,
+                padding,
+            }
+        );
+    }
+}

@@ -16,6 +16,7 @@ struct Params {
     // Samples in a row, and rows.
     width: u32,
     height: u32,
+    padding: u32,
 }
 
 @group(0) @binding(0) var<uniform> params: Params;
