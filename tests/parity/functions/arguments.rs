@@ -86,7 +86,7 @@ impl Kind {
                 row.extend(v.to_array());
             }
             Vector(low, high) => {
-                let length = random.logarithmic(low, high);
+                let length = random.logarithmic(random.least(low), high);
                 let zero = special && random.below(4) == 0;
                 let v = unit(random, special, units) * if zero { 0.0 } else { length };
                 row.extend(v.to_array());
@@ -105,6 +105,9 @@ impl Kind {
                 let (x, y) = if special { some } else { (cos, sin) };
                 row.extend([x, y]);
             }
+            Alpha | AnyAlpha if special && random.gentle => {
+                row.push(random.special(1e-3, 1.0, &[]))
+            }
             Alpha if special => row.push(random.special(1e-6, 1.0, &[1e-3, 1.525_878_9e-5])),
             AnyAlpha if special => row.push(random.special(0.0, 1.0, &[1e-3, 1.525_878_9e-5])),
             Alpha | AnyAlpha => row.push(random.logarithmic(1e-3, 1.0)),
@@ -113,10 +116,10 @@ impl Kind {
             Positive(low, high) if special => {
                 row.push(random.special(0.0, high, &[low, high]));
             }
-            Positive(low, high) => row.push(random.logarithmic(low, high)),
+            Positive(low, high) => row.push(random.logarithmic(random.least(low), high)),
             Signed(_, high) if special => row.push(random.special(-high, high, &[high, -high])),
             Signed(low, high) => {
-                let size = random.logarithmic(low, high);
+                let size = random.logarithmic(random.least(low), high);
                 row.push(if random.below(2) == 0 { size } else { -size });
             }
         }
@@ -155,8 +158,13 @@ fn unit(random: &mut Random, special: bool, earlier: &[Vec3]) -> Vec3 {
 }
 
 /// The arguments of `count` calls, one call after the other. In an eighth of them half the arguments are special.
-pub(super) fn rows(kinds: &[Kind], count: usize, seed: u64) -> Vec<f32> {
-    let mut random = Random(seed);
+///
+/// `gentle` keeps from numbers whose squares or products leave the normal ones, for devices that have no others.
+pub(super) fn rows(kinds: &[Kind], count: usize, seed: u64, gentle: bool) -> Vec<f32> {
+    let mut random = Random {
+        state: seed,
+        gentle,
+    };
     let width: usize = kinds.iter().map(|k| k.width()).sum();
     let mut all = Vec::with_capacity(count * width);
     let mut units = Vec::new();
@@ -171,12 +179,15 @@ pub(super) fn rows(kinds: &[Kind], count: usize, seed: u64) -> Vec<f32> {
 }
 
 /// A generator that is the same everywhere (Vigna 2015, "splitmix64").
-pub(super) struct Random(u64);
+struct Random {
+    state: u64,
+    gentle: bool,
+}
 
 impl Random {
     fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
+        self.state = self.state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.state;
         z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
         z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
         z ^ (z >> 31)
@@ -209,6 +220,16 @@ impl Random {
             1 => x.next_down(),
             _ => x,
         };
+        let x = if self.gentle && x.abs() < 1e-9 {
+            0.0
+        } else {
+            x
+        };
         x.clamp(low, high)
+    }
+
+    /// Least size of an argument where `low` was asked for.
+    fn least(&self, low: f32) -> f32 {
+        if self.gentle { low.max(1e-12) } else { low }
     }
 }

@@ -157,7 +157,8 @@ impl FilteredView {
         let numerator = (self.quarter * self.ax * self.ay * k + crossed) * k + constant;
         let bent = 0.5 * both * k;
         let denominator = (self.quarter * k + (crossed + 0.5 * both * (g11 + g22))) * k + constant;
-        let inverse = 1.0 / denominator;
+        // Zero for a constant light on a rough surface at a grazing view, where a device has no subnormal numbers.
+        let inverse = 1.0 / denominator.max(f32::MIN_POSITIVE);
         Filtered {
             determinant: numerator * inverse,
             numerator,

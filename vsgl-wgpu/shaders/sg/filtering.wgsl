@@ -78,7 +78,7 @@ fn filtered_view_filter(own: FilteredView, sharpness: f32) -> Filtered {
     let numerator = (own.quarter * own.ax * own.ay * k + crossed) * k + constant;
     let bent = 0.5 * both * k;
     let denominator = (own.quarter * k + (crossed + 0.5 * both * (g11 + g22))) * k + constant;
-    let inverse = 1.0 / denominator;
+    let inverse = 1.0 / max(denominator, F32_MIN_POSITIVE);
     return Filtered(numerator * inverse, numerator, inverse, k, bent);
 }
 
