@@ -3,5 +3,6 @@
 mod chain;
 mod faults;
 mod functions;
+mod phases;
 mod raster;
 mod shaders;

@@ -22,14 +22,22 @@ pub const MODULES: &[(&str, &str)] = modules![
     "brdf/visible",
     "data/index",
     "data/lights",
+    "data/partition",
     "data/point_sender",
+    "data/scan",
     "data/scene",
     "data/view",
     "data/vsgls",
     "data/vsgls_read",
+    "data/vsgls_write",
+    "entry/best",
+    "entry/cluster",
     "entry/gbuffer",
     "entry/raster",
+    "entry/leaves",
+    "entry/partition",
     "entry/resolve",
+    "entry/round",
     "entry/rsm",
     "entry/senders",
     "entry/shade",
@@ -39,9 +47,12 @@ pub const MODULES: &[(&str, &str)] = modules![
     "math/elementary",
     "math/moments",
     "math/vec",
+    "phase/cluster",
     "phase/direct",
     "phase/facing",
     "phase/gbuffer",
+    "phase/partition",
+    "phase/pdf",
     "phase/reflect",
     "phase/resolve",
     "phase/rsm",
@@ -112,7 +123,7 @@ fn visit<'a>(name: &'a str, order: &mut Vec<&'a str>, above: &mut Vec<&'a str>) 
 
 /// Constants of phases and geometry, written once in Rust.
 fn header() -> String {
-    use vsgl_core::phase::{facing, rsm, shade, surface};
+    use vsgl_core::phase::{cluster, facing, partition, pdf, rsm, shade, surface};
     let floats: &[(&str, f32)] = &[
         ("ALPHA_MIN", surface::ALPHA_MIN),
         ("FOOTPRINT_COSINE_MIN", rsm::FOOTPRINT_COSINE_MIN),
@@ -120,6 +131,8 @@ fn header() -> String {
         ("LIFT", facing::LIFT),
         ("SLAB_EXIT", vsgl_core::geom::SLAB_EXIT),
         ("STRENGTH_MAX", f32::MAX * 1e-6),
+        ("NORMAL_SCALE", partition::NORMAL_SCALE),
+        ("BELOW_ONE", pdf::BELOW_ONE),
     ];
     let integers: &[(&str, u32)] = &[
         ("NO_TRIANGLE", vsgl_core::data::NO_TRIANGLE),
@@ -127,6 +140,11 @@ fn header() -> String {
         ("STACK", vsgl_core::geom::STACK as u32),
         ("TEXEL_SIDE", crate::texels::SIDE),
         ("INVOCATIONS", crate::kernel::INVOCATIONS),
+        ("GOLDEN_TURN", pdf::GOLDEN_TURN),
+        ("PARTITION_BLOCK", partition::BLOCK as u32),
+        ("PARTITION_LANES", partition::LANES as u32),
+        ("CLUSTER_BLOCK", cluster::BLOCK as u32),
+        ("CLUSTER_LANES", cluster::LANES as u32),
     ];
     let mut text = String::new();
     for (name, value) in floats {

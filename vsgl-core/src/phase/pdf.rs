@@ -107,12 +107,15 @@ impl Pdf {
     }
 }
 
+/// A golden-ratio fraction of a turn of 2³².
+pub const GOLDEN_TURN: u32 = 2_654_435_769;
+
 /// Point `index` of `count` of a Fibonacci lattice on the unit square.
 ///
 /// The second coordinate is a multiple of the golden ratio in 32-bit integers, exact on every backend.
 /// Source: Tokuyoshi 2016, "Modified Filtered Importance Sampling for Virtual Spherical Gaussian Lights", section 5.
 pub fn fibonacci(index: u32, count: u32) -> (f32, f32) {
-    let turn = index.wrapping_mul(2_654_435_769);
+    let turn = index.wrapping_mul(GOLDEN_TURN);
     ((index as f32 + 0.5) / count as f32, unit(turn))
 }
 
@@ -122,7 +125,7 @@ pub fn unit(bits: u32) -> f32 {
 }
 
 /// Largest f32 below one.
-const BELOW_ONE: f32 = 1.0 - 1.0 / 16_777_216.0;
+pub const BELOW_ONE: f32 = 1.0 - 1.0 / 16_777_216.0;
 
 /// Warps a point of the unit square by the density of a map; the result is in texels of level 0.
 ///

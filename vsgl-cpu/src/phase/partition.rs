@@ -10,7 +10,7 @@ use vsgl_core::data::Rsm;
 use vsgl_core::math::fold;
 use vsgl_core::phase::cluster::{self, Sum, draw};
 use vsgl_core::phase::partition::{BLOCK, FEATURES, Features, LANES, Statistics, nodes, rounds};
-use vsgl_core::phase::pdf::unit;
+use vsgl_core::phase::pdf::{GOLDEN_TURN, unit};
 use vsgl_core::plan::ClusterPlan;
 
 /// Position, weight and normal of a texel.
@@ -68,7 +68,7 @@ fn clusters(rsm: &Rsm, sets: &[&[u32]], plan: &ClusterPlan) -> Vec<Cluster> {
     let cluster = |(index, range): (usize, Range<usize>)| {
         let blocks = &sums[range];
         // A golden-ratio sequence over the clusters: no two neighbours take the same place of their sums.
-        let u = unit((index as u32).wrapping_mul(2_654_435_769));
+        let u = unit((index as u32).wrapping_mul(GOLDEN_TURN));
         Cluster {
             sum: Sum::of_blocks(blocks),
             texel: draw(rsm, sets[index], blocks, u),

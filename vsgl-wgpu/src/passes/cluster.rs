@@ -1,26 +1,120 @@
-//! Clusters of virtual point lights.
+//! Clusters of virtual point lights, and the lights that stand for them.
 
-use crate::kernel::KernelId;
-use crate::recorder::Recorder;
+use super::{filtered, flag, partition};
+use crate::kernel::{Constant, KernelId};
+use crate::pool::Pooled;
+use crate::recorder::{Binding, Groups, Recorder};
 use crate::res::WgpuRes;
+use bytemuck::{Pod, Zeroable};
 use vsgl_core::Result;
-use vsgl_core::data::{Pdf, Rsm, SceneData, Vsgls};
+use vsgl_core::data::{DiffuseVsgl, Pdf, Rsm, SceneData, SpecularVsgl, Target, Vsgls};
 use vsgl_core::plan::ClusterPlan;
+use vsgl_core::settings::{Clustering, Emission, SharpnessFit, Variance};
+
+/// Twin of `Params` in `entry/cluster.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub(super) struct Params {
+    texels: u32,
+    map_texels: u32,
+    capacity: u32,
+    specular_stride: u32,
+}
+
+impl Params {
+    pub(super) fn new(rsm: &WgpuRes<Rsm>, made: &WgpuRes<Vsgls>, plan: &ClusterPlan) -> Self {
+        Self {
+            texels: rsm.len("position") as u32,
+            map_texels: rsm.head[0] * rsm.head[0],
+            capacity: made.len("texel") as u32,
+            specular_stride: if plan.glossy {
+                size_of::<SpecularVsgl>() as u32 / 16
+            } else {
+                0
+            },
+        }
+    }
+}
+
+/// Constants of all kernels that make sums of texels, or lights of sums.
+pub(super) fn constants(plan: &ClusterPlan) -> [Constant; 4] {
+    [
+        ("GLOSSY", flag(plan.glossy)),
+        ("SG", flag(plan.emission == Emission::Sg)),
+        ("TOKSVIG", flag(plan.sharpness == SharpnessFit::Toksvig)),
+        ("TRACE", flag(plan.variance == Variance::Trace)),
+    ]
+}
+
+/// Columns that have room for more lights than there may be.
+const COUNTED: &[&str] = &["diffuse", "specular", "target", "texel", "kernel"];
+
+/// Sums of the clusters, whose texels are drawn already.
+pub(super) struct Drawn {
+    pub(super) sum: Pooled,
+}
 
 /// The pipelines that a plan needs.
-pub(crate) fn kernels(_plan: &ClusterPlan) -> Vec<KernelId> {
-    Vec::new()
+pub(crate) fn kernels(plan: &ClusterPlan) -> Vec<KernelId> {
+    let mut kernels = match plan.method {
+        Clustering::Partition => partition::kernels(plan),
+        Clustering::Filtered => filtered::kernels(plan),
+    };
+    let constants = constants(plan);
+    kernels.push(KernelId::new("entry/cluster", "make_lights", &constants));
+    kernels
 }
 
 /// Records the clusters.
 pub(crate) fn record(
     recorder: &mut Recorder<'_>,
-    _scene: &WgpuRes<SceneData>,
-    _rsm: &WgpuRes<Rsm>,
-    _pdf: Option<&WgpuRes<Pdf>>,
-    _plan: &ClusterPlan,
+    scene: &WgpuRes<SceneData>,
+    rsm: &WgpuRes<Rsm>,
+    pdf: Option<&WgpuRes<Pdf>>,
+    plan: &ClusterPlan,
 ) -> Result<WgpuRes<Vsgls>> {
-    Err(recorder
-        .context()
-        .error("clustering is not written yet", "use `--backend cpu`"))
+    let context = recorder.context();
+    let pdf = pdf.filter(|_| plan.method == Clustering::Filtered);
+    // A cluster a map at least, if it is lit.
+    let most = plan.count.max(rsm.head[1]).max(1);
+    let capacity = u64::from(most);
+    let if_so = |yes: bool, count: u64| if yes { count } else { 0 };
+    let made = WgpuRes::<Vsgls>::new(
+        context,
+        vec![most],
+        &[
+            ("diffuse", size_of::<DiffuseVsgl>() as u64, capacity),
+            (
+                "specular",
+                size_of::<SpecularVsgl>() as u64,
+                if_so(plan.glossy, capacity),
+            ),
+            ("target", size_of::<Target>() as u64, capacity),
+            ("texel", 4, capacity),
+            ("label", 4, if_so(pdf.is_none(), rsm.len("position"))),
+            ("kernel", 16, if_so(pdf.is_some(), capacity)),
+        ],
+    )?
+    .counted(context.buffer("the number of clusters", 4)?, COUNTED);
+    let drawn = match pdf {
+        Some(pdf) => filtered::record(recorder, rsm, pdf, &made, plan)?,
+        None => partition::record(recorder, rsm, &made, plan)?,
+    };
+    let kernel = context.kernel("entry/cluster", "make_lights", &constants(plan))?;
+    recorder.dispatch(
+        &kernel,
+        &Params::new(rsm, &made, plan),
+        &[
+            ("texel", rsm.bind("position")),
+            ("map", rsm.bind("map")),
+            ("triangle", rsm.bind("triangle")),
+            ("corner", scene.bind("corner")),
+            ("clusters", Binding::Buffer(made.count_buffer())),
+            ("sum", Binding::Buffer(&drawn.sum)),
+            ("drawn", made.bind("texel")),
+            ("lights", made.bind("diffuse")),
+        ],
+        Groups::Items(capacity),
+    )?;
+    Ok(made)
 }

@@ -1,7 +1,9 @@
 //! One file a phase: what its kernels bind, and in which order they run. Everything is recorded into the caller's encoder.
 
 pub(crate) mod cluster;
+mod filtered;
 pub(crate) mod gbuffer;
+mod partition;
 pub(crate) mod pdf;
 pub(crate) mod resolve;
 pub(crate) mod rsm;

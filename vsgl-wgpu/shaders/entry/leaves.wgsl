@@ -1,0 +1,102 @@
+//! needs: data/index, data/partition, data/scan
+// After the rounds of the partition: clusters are numbered by where their ranges of the list begin. Twin of `Tree::sets` in
+// `vsgl-cpu/src/phase/partition.rs`.
+
+@group(0) @binding(0) var<storage, read> list: array<u32>;
+// One more than the node whose range begins there; 0 for none.
+@group(0) @binding(1) var<storage, read> mark: array<u32>;
+@group(0) @binding(2) var<storage, read> node: array<Node>;
+@group(0) @binding(3) var<storage, read_write> state: State;
+@group(0) @binding(4) var<storage, read_write> count: array<u32>;
+@group(0) @binding(5) var<storage, read_write> label: array<u32>;
+@group(0) @binding(6) var<storage, read_write> cluster: array<Cluster>;
+@group(0) @binding(7) var<storage, read_write> clusters: array<u32>;
+@group(0) @binding(8) var<storage, read_write> block_groups: Groups;
+
+// A place of the list an invocation.
+@compute @workgroup_size(SCAN)
+fn begins(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) local: u32,
+) {
+    let block = group_index(group, groups);
+    let i = block * SCAN + local;
+    let scanned = scan_group(local, begins_at(i));
+    if local == 0u && block * SCAN < state.texels {
+        count[block] = scanned.total;
+    }
+}
+
+fn begins_at(i: u32) -> u32 {
+    if i < state.texels {
+        return select(0u, 1u, mark[i] > 0u);
+    }
+    return 0u;
+}
+
+// One workgroup: the blocks' running sum in place of their counts, and the number of clusters.
+@compute @workgroup_size(SCAN)
+fn numbers(@builtin(local_invocation_index) local: u32) {
+    let blocks = blocks_of(state.texels, SCAN);
+    let chunk = blocks_of(blocks, SCAN);
+    let first = min(local * chunk, blocks);
+    let end = min(first + chunk, blocks);
+    var own = 0u;
+    for (var b = first; b < end; b += 1u) {
+        own += count[b];
+    }
+    let scanned = scan_group(local, own);
+    var passed = scanned.before;
+    for (var b = first; b < end; b += 1u) {
+        let here = count[b];
+        count[b] = passed;
+        passed += here;
+    }
+    if local == 0u {
+        clusters[0] = scanned.total;
+    }
+}
+
+@compute @workgroup_size(SCAN)
+fn labels(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) local: u32,
+) {
+    let block = group_index(group, groups);
+    let i = block * SCAN + local;
+    let begins = begins_at(i);
+    let scanned = scan_group(local, begins);
+    if i < state.lit {
+        // Of the range that began last, here or before.
+        let number = count[block] + scanned.before + begins - 1u;
+        label[list[i]] = number;
+        if begins > 0u {
+            cluster[number] = Cluster(i, node[mark[i] - 1u].length, 0u);
+        }
+    }
+}
+
+// One workgroup: the clusters' blocks.
+@compute @workgroup_size(SCAN)
+fn blocks(@builtin(local_invocation_index) local: u32) {
+    let all = clusters[0];
+    let chunk = blocks_of(all, SCAN);
+    let first = min(local * chunk, all);
+    let end = min(first + chunk, all);
+    var own = 0u;
+    for (var c = first; c < end; c += 1u) {
+        own += blocks_of(cluster[c].length, CLUSTER_BLOCK);
+    }
+    let scanned = scan_group(local, own);
+    var passed = scanned.before;
+    for (var c = first; c < end; c += 1u) {
+        cluster[c].block = passed;
+        passed += blocks_of(cluster[c].length, CLUSTER_BLOCK);
+    }
+    if local == 0u {
+        state.blocks = scanned.total;
+        block_groups = groups_of(scanned.total);
+    }
+}

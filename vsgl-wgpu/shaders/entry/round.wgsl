@@ -1,0 +1,238 @@
+//! needs: data/index, data/partition, data/scan, phase/partition
+// A round of the partition: which sets are split, where their texels go, and what decides about the halves. Twin of
+// `Tree::round` in `vsgl-cpu/src/phase/partition.rs`.
+
+// The nodes of the maps instead of the halves of splits.
+override ROOTS: bool = false;
+
+@group(0) @binding(0) var<storage, read> texel: array<vec4<f32>>;
+@group(0) @binding(1) var<storage, read> place: array<vec4<f32>>;
+@group(0) @binding(2) var<storage, read_write> list: array<u32>;
+@group(0) @binding(3) var<storage, read_write> spare: array<u32>;
+@group(0) @binding(4) var<storage, read_write> count: array<u32>;
+@group(0) @binding(5) var<storage, read_write> node: array<Node>;
+@group(0) @binding(6) var<storage, read> split: array<Split>;
+@group(0) @binding(7) var<storage, read> state: State;
+@group(0) @binding(8) var<storage, read_write> block: array<Features>;
+
+// The split that a slot belongs to.
+fn split_of(slot: u32) -> Split {
+    var low = 0u;
+    var high = state.open;
+    while high - low > 1u {
+        let middle = low + (high - low) / 2u;
+        if split[middle].slot <= slot {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    return split[low];
+}
+
+fn feature(index: u32, axis: u32) -> f32 {
+    if axis < 4u {
+        return place[index][axis];
+    }
+    return texel[state.texels + index][axis - 4u];
+}
+
+// Texels of a block that go to the first half. A workgroup a slot, as below.
+@compute @workgroup_size(PARTITION_BLOCK)
+fn halves(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) local: u32,
+) {
+    let slot = group_index(group, groups);
+    var first = 0u;
+    if slot < state.slots {
+        let own = split_of(slot);
+        let from_node = node[own.node];
+        let i = (slot - own.slot) * PARTITION_BLOCK + local;
+        if i < from_node.length && feature(list[from_node.start + i], from_node.axis) <= from_node.threshold {
+            first = 1u;
+        }
+    }
+    let scanned = scan_group(local, first);
+    if local == 0u && slot < state.slots {
+        count[slot] = scanned.total;
+    }
+}
+
+@compute @workgroup_size(PARTITION_BLOCK)
+fn scatter(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) local: u32,
+) {
+    let slot = group_index(group, groups);
+    let inside = slot < state.slots;
+    var own = Split();
+    var start = 0u;
+    var length = 0u;
+    var before = 0u;
+    var all = 0u;
+    var index = 0u;
+    var first = 0u;
+    if inside {
+        own = split_of(slot);
+        start = node[own.node].start;
+        length = node[own.node].length;
+        let blocks = blocks_of(length, PARTITION_BLOCK);
+        for (var b = local; b < blocks; b += PARTITION_BLOCK) {
+            let here = count[own.slot + b];
+            all += here;
+            before += select(0u, here, own.slot + b < slot);
+        }
+    }
+    // Place in the range.
+    let i = (slot - own.slot) * PARTITION_BLOCK + local;
+    if inside && i < length {
+        index = list[start + i];
+        first = select(0u, 1u, feature(index, node[own.node].axis) <= node[own.node].threshold);
+    }
+    let firsts = scan_group(local, all).total;
+    let passed = scan_group(local, before).total;
+    let front = passed + scan_group(local, first).before;
+    if inside && i < length {
+        spare[start + select(firsts + (i - front), front, first > 0u)] = index;
+    }
+    if inside && slot == own.slot && local == 0u {
+        // All on one side: never to be tried again.
+        let is_whole = firsts == 0u || firsts == length;
+        node[own.child].start = start;
+        node[own.child].length = select(firsts, 0u, is_whole);
+        node[own.child + 1u].start = start + firsts;
+        node[own.child + 1u].length = select(length - firsts, 0u, is_whole);
+        if is_whole {
+            node[own.node].rank = 0.0;
+        }
+    }
+}
+
+const HALF: u32 = PARTITION_BLOCK / 2u;
+var<workgroup> halved: array<Features, HALF>;
+
+fn features_at(index: u32) -> Features {
+    return features_texel(place[index], texel[state.texels + index].xyz);
+}
+
+// Features of a block of a child; the texels come back into the list. Two texels an invocation.
+@compute @workgroup_size(HALF)
+fn features(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) local: u32,
+) {
+    let slot = group_index(group, groups);
+    // Texels of the block.
+    var length = 0u;
+    if slot < state.slots {
+        let own = split_of(slot);
+        var b = slot - own.slot;
+        var start = node[own.child].start;
+        length = node[own.child].length;
+        let blocks = blocks_of(length, PARTITION_BLOCK);
+        if b >= blocks {
+            b -= blocks;
+            length = 0u;
+            if !ROOTS {
+                start = node[own.child + 1u].start;
+                length = node[own.child + 1u].length;
+            }
+        }
+        length = length - min(length, b * PARTITION_BLOCK);
+        length = min(length, PARTITION_BLOCK);
+        start += b * PARTITION_BLOCK;
+        if local < length {
+            let index = moved(start + local);
+            var sum = features_at(index);
+            if local + HALF < length {
+                let other = moved(start + local + HALF);
+                sum = features_merge(sum, features_at(other));
+            }
+            halved[local] = sum;
+        }
+    }
+    workgroupBarrier();
+    for (var half = HALF / 2u; half > 0u; half /= 2u) {
+        if local < half && local + half < length {
+            halved[local] = features_merge(halved[local], halved[local + half]);
+        }
+        workgroupBarrier();
+    }
+    if local == 0u && length > 0u {
+        block[slot] = halved[0];
+    }
+}
+
+fn moved(at: u32) -> u32 {
+    if ROOTS {
+        return list[at];
+    }
+    let index = spare[at];
+    list[at] = index;
+    return index;
+}
+
+var<workgroup> lanes: array<Features, PARTITION_LANES>;
+
+// The node of a child. A workgroup a child.
+@compute @workgroup_size(PARTITION_LANES)
+fn nodes(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) local: u32,
+) {
+    let item = group_index(group, groups);
+    let k = select(item / 2u, item, ROOTS);
+    let side = select(item % 2u, 0u, ROOTS);
+    var blocks = 0u;
+    if k < state.open {
+        let own = split[k];
+        var slot = own.slot;
+        if side > 0u {
+            slot += blocks_of(node[own.child].length, PARTITION_BLOCK);
+        }
+        blocks = blocks_of(node[own.child + side].length, PARTITION_BLOCK);
+        if local < blocks {
+            var sum = block[slot + local];
+            for (var b = local + PARTITION_LANES; b < blocks; b += PARTITION_LANES) {
+                sum = features_merge(sum, block[slot + b]);
+            }
+            lanes[local] = sum;
+        }
+    }
+    workgroupBarrier();
+    for (var half = PARTITION_LANES / 2u; half > 0u; half /= 2u) {
+        if local < half && local + half < blocks {
+            lanes[local] = features_merge(lanes[local], lanes[local + half]);
+        }
+        workgroupBarrier();
+    }
+    if local == 0u && k < state.open {
+        let own = split[k];
+        var above = F32_MAX;
+        var scale = 1.0;
+        if ROOTS {
+            if blocks > 0u {
+                scale = features_scale(lanes[0]);
+            }
+        } else {
+            above = node[own.node].rank;
+            scale = node[own.node].scale;
+        }
+        var at = Statistics();
+        if blocks > 0u {
+            at = statistics_new(lanes[0], scale);
+        }
+        let child = own.child + side;
+        node[child].children = 0u;
+        node[child].axis = at.axis;
+        node[child].threshold = at.threshold;
+        node[child].rank = min(at.priority, above);
+        node[child].scale = scale;
+        node[child].taken = 0u;
+    }
+}
