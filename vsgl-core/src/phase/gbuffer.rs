@@ -21,7 +21,7 @@ pub fn ray(view: &View, x: u32, y: u32) -> Ray {
     let upwards = (0.5 * view.height as f32 - place(y)) * scale;
     Ray::new(
         camera.eye,
-        camera.forward + (camera.right * across + camera.up * upwards),
+        (camera.forward + camera.right * across) + camera.up * upwards,
     )
 }
 

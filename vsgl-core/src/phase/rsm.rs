@@ -44,9 +44,9 @@ pub fn ray(map: &MapRecord, size: u32, x: u32, y: u32) -> (Ray, Vec3) {
     let side = 2.0 * map.tan_half_fov / size as f32;
     let across = (x as f32 + 0.5) * side - map.tan_half_fov;
     let upwards = map.tan_half_fov - (y as f32 + 0.5) * side;
-    let sideways = Vec3::from_array(map.right) * across + Vec3::from_array(map.up) * upwards;
-    let direction = Vec3::from_array(map.axis) + sideways;
-    let cosine = 1.0 / (1.0 + (across * across + upwards * upwards)).sqrt();
+    let right = Vec3::from_array(map.right) * across;
+    let direction = (Vec3::from_array(map.axis) + right) + Vec3::from_array(map.up) * upwards;
+    let cosine = 1.0 / ((1.0 + across * across) + upwards * upwards).sqrt();
     let falloff = SpotLight::falloff(cosine, map.cos_inner, map.cos_outer);
     let solid_angle = map.solid_angle * (cosine * cosine * cosine);
     let flux = Vec3::from_array(map.intensity) * (falloff * solid_angle);

@@ -84,12 +84,12 @@ fn interpolate(corner: &[f32; 9], u: f32, v: f32) -> Vec3 {
     let a = Vec3::new(corner[0], corner[1], corner[2]);
     let ab = Vec3::new(corner[3], corner[4], corner[5]) - a;
     let ac = Vec3::new(corner[6], corner[7], corner[8]) - a;
-    a + (ab * u + ac * v)
+    (a + ab * u) + ac * v
 }
 
 fn texcoord(scene: &SceneData, triangle: usize, u: f32, v: f32) -> (f32, f32) {
     let c = &scene.corner_texcoord[triangle];
-    let s = c[0] + ((c[2] - c[0]) * u + (c[4] - c[0]) * v);
-    let t = c[1] + ((c[3] - c[1]) * u + (c[5] - c[1]) * v);
+    let s = (c[0] + (c[2] - c[0]) * u) + (c[4] - c[0]) * v;
+    let t = (c[1] + (c[3] - c[1]) * u) + (c[5] - c[1]) * v;
     (s, t)
 }

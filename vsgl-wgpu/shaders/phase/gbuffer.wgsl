@@ -6,7 +6,7 @@ fn gbuffer_ray(view: View, x: u32, y: u32) -> Ray {
     let scale = 2.0 * view.tan_half_fov / f32(view.height);
     let across = (gbuffer_place(view, x) - 0.5 * f32(view.width)) * scale;
     let upwards = (0.5 * f32(view.height) - gbuffer_place(view, y)) * scale;
-    return ray_new(view.eye, view.forward + (view.right * across + view.up * upwards));
+    return ray_new(view.eye, (view.forward + view.right * across) + view.up * upwards);
 }
 
 fn gbuffer_place(view: View, sample: u32) -> f32 {

@@ -11,9 +11,8 @@ fn rsm_ray(map: MapRecord, size: u32, x: u32, y: u32) -> RsmRay {
     let side = 2.0 * map.tan_half_fov / f32(size);
     let across = (f32(x) + 0.5) * side - map.tan_half_fov;
     let upwards = map.tan_half_fov - (f32(y) + 0.5) * side;
-    let sideways = map.right * across + map.up * upwards;
-    let direction = map.axis + sideways;
-    let cosine = 1.0 / sqrt(1.0 + (across * across + upwards * upwards));
+    let direction = (map.axis + map.right * across) + map.up * upwards;
+    let cosine = 1.0 / sqrt((1.0 + across * across) + upwards * upwards);
     let falloff = spot_light_falloff(cosine, map.cos_inner, map.cos_outer);
     let solid_angle = map.solid_angle * (cosine * cosine * cosine);
     return RsmRay(ray_new(map.position, direction), map.intensity * (falloff * solid_angle));

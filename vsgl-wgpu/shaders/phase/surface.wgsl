@@ -55,11 +55,11 @@ fn surface_interpolate(corners: array<f32, 9>, u: f32, v: f32) -> vec3<f32> {
     let a = vec3(corners[0], corners[1], corners[2]);
     let ab = vec3(corners[3], corners[4], corners[5]) - a;
     let ac = vec3(corners[6], corners[7], corners[8]) - a;
-    return a + (ab * u + ac * v);
+    return (a + ab * u) + ac * v;
 }
 
 fn surface_texcoord(c: array<f32, 6>, u: f32, v: f32) -> vec2<f32> {
-    let s = c[0] + ((c[2] - c[0]) * u + (c[4] - c[0]) * v);
-    let t = c[1] + ((c[3] - c[1]) * u + (c[5] - c[1]) * v);
+    let s = (c[0] + (c[2] - c[0]) * u) + (c[4] - c[0]) * v;
+    let t = (c[1] + (c[3] - c[1]) * u) + (c[5] - c[1]) * v;
     return vec2(s, t);
 }
