@@ -129,6 +129,7 @@ fn check(name: &str, shot: &Shot) {
 #[test]
 fn partition_of_a_built_in_scene() {
     for settings in [
+        "rsm=64 lights=64",
         "rsm=64 lights=512",
         "rsm=64 lights=1",
         "rsm=512 lights=1024",
@@ -136,5 +137,21 @@ fn partition_of_a_built_in_scene() {
         "rsm=3 lights=256",
     ] {
         check(settings, &Shot::sample("cornell").with(settings));
+    }
+}
+
+#[test]
+fn filtered_kernels_of_a_built_in_scene() {
+    for settings in [
+        "rsm=64 lights=64",
+        "rsm=64 lights=1",
+        "rsm=50 lights=300 kernel=3 bisections=20",
+        "rsm=1 lights=16",
+        "rsm=3 lights=256",
+    ] {
+        let shot = Shot::sample("cornell")
+            .with("clustering=filtered")
+            .with(settings);
+        check(settings, &shot);
     }
 }

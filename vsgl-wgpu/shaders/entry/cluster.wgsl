@@ -1,4 +1,4 @@
-//! needs: data/index, data/partition, data/vsgls_write, phase/cluster, phase/pdf
+//! needs: data/index, data/partition, data/vsgls_write, phase/cluster, phase/unit
 // From the ranges of the partition to lights: sums of blocks, of clusters, and what is made of them. Twin of `clusters` in
 // `vsgl-cpu/src/phase/partition.rs`, and of `gather` in `cluster.rs` there.
 

@@ -1,27 +1,96 @@
 //! Clusters by modified filtered importance sampling.
 
-use super::cluster::Drawn;
+use super::cluster::{Drawn, constants};
+use super::partition::SUM;
 use crate::kernel::KernelId;
-use crate::recorder::Recorder;
+use crate::recorder::{Binding, Groups, Recorder};
 use crate::res::WgpuRes;
+use bytemuck::{Pod, Zeroable};
 use vsgl_core::Result;
 use vsgl_core::data::{Pdf, Rsm, Vsgls};
+use vsgl_core::phase::pdf::{level_count, level_start, top_level};
 use vsgl_core::plan::ClusterPlan;
 
-/// The pipelines that a plan needs.
-pub(super) fn kernels(_plan: &ClusterPlan) -> Vec<KernelId> {
-    Vec::new()
+/// Twin of `Params` in `entry/filtered.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+struct Params {
+    size: u32,
+    maps: u32,
+    rsm_size: u32,
+    map_texels: u32,
+    texels: u32,
+    level: u32,
+    overlap: f32,
+    bisections: u32,
 }
 
+/// Bytes of a `Kernel` as `phase/filtered.wgsl` declares it.
+const KERNEL: u64 = 20;
+
+/// The pipelines that a plan needs.
+pub(super) fn kernels(plan: &ClusterPlan) -> Vec<KernelId> {
+    let constants = constants(plan);
+    ["numbers", "kernels", "above", "gather"]
+        .map(|entry| KernelId::new("entry/filtered", entry, &constants))
+        .to_vec()
+}
+
+/// Records kernels and the sums under them, with the texels drawn into the lights' resource.
 pub(super) fn record(
     recorder: &mut Recorder<'_>,
-    _rsm: &WgpuRes<Rsm>,
-    _pdf: &WgpuRes<Pdf>,
-    _made: &WgpuRes<Vsgls>,
-    _plan: &ClusterPlan,
+    rsm: &WgpuRes<Rsm>,
+    pdf: &WgpuRes<Pdf>,
+    made: &WgpuRes<Vsgls>,
+    plan: &ClusterPlan,
 ) -> Result<Drawn> {
-    Err(recorder.context().error(
-        "filtered clustering is not written yet",
-        "use `--backend cpu`",
-    ))
+    let context = recorder.context();
+    let ([size, maps], [rsm_size, _]) = (&pdf.head[..], &rsm.head[..]) else {
+        return Err(context.error("a density without its size", "report it"));
+    };
+    let (size, maps, rsm_size) = (*size, *maps, *rsm_size);
+    let capacity = made.len("texel");
+    let top = top_level(size);
+    let above = level_start(size, maps, top + 1) - level_count(size, maps, 0);
+    let before = context.buffer("lights of the maps before", 4 * u64::from(maps))?;
+    let kernel = context.buffer("kernels", KERNEL * capacity)?;
+    let pyramid = context.buffer("the pyramid of sums", SUM * above as u64)?;
+    let sum = context.buffer("sums of clusters", SUM * capacity)?;
+    let bound = [
+        ("texel", rsm.bind("position")),
+        ("map", rsm.bind("map")),
+        ("weight", pdf.bind("weight")),
+        ("share", pdf.bind("share")),
+        ("before", Binding::Buffer(&before)),
+        ("clusters", Binding::Buffer(made.count_buffer())),
+        ("kernel", Binding::Buffer(&kernel)),
+        ("kernel_out", made.bind("kernel")),
+        ("drawn_out", made.bind("texel")),
+        ("pyramid", Binding::Buffer(&pyramid)),
+        ("sum_out", Binding::Buffer(&sum)),
+    ];
+    let mut params = Params {
+        size,
+        maps,
+        rsm_size,
+        map_texels: rsm_size * rsm_size,
+        texels: rsm.len("position") as u32,
+        level: 0,
+        overlap: plan.kernel,
+        bisections: plan.bisections,
+    };
+    let constants = constants(plan);
+    let mut run = |entry, params: &Params, groups| {
+        let kernel = context.kernel("entry/filtered", entry, &constants)?;
+        recorder.dispatch(&kernel, params, &bound, groups)
+    };
+    for level in 1..=top {
+        params.level = level;
+        let texels = level_count(size, maps, level) as u64;
+        run("above", &params, Groups::Items(texels))?;
+    }
+    run("numbers", &params, Groups::Count(1))?;
+    run("kernels", &params, Groups::Items(capacity))?;
+    run("gather", &params, Groups::Items(capacity))?;
+    Ok(Drawn { sum })
 }
