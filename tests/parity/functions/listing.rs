@@ -2,6 +2,7 @@
 
 use super::entries;
 use std::collections::{BTreeMap, BTreeSet};
+use vsgl_wgpu::wgpu::naga::valid::{Capabilities, ValidationFlags, Validator};
 use vsgl_wgpu::wgpu::naga::{self, Expression, MathFunction, Module, Statement};
 use vsgl_wgpu::{MODULES, link};
 
@@ -9,7 +10,8 @@ fn parse(source: &str) -> Module {
     naga::front::wgsl::parse_str(source).unwrap_or_else(|e| panic!("{}", e.emit_to_string(source)))
 }
 
-/// Whether a shader file holds mathematics, all of it to be in the table.
+/// Whether a shader file holds mathematics, all of it to be in the table. Phases and geometry are compared as phases; what
+/// is plain mathematics among them is in the table too.
 fn is_mathematics(file: &str) -> bool {
     ["math/", "sg/", "brdf/"]
         .iter()
@@ -82,7 +84,14 @@ fn tested() -> (BTreeSet<String>, BTreeSet<String>) {
     let mut direct = BTreeSet::new();
     for entry in entries() {
         let module = parse(&format!("{}{}", link(&[entry.file]), entry.shader()));
-        let calls = called(&module.entry_points[0].function, &module);
+        let mut calls = called(&module.entry_points[0].function, &module);
+        // What the entry adds to make the call.
+        for (_, function) in module.functions.iter() {
+            let name = function.name.as_deref().unwrap_or_default();
+            if entry.text.contains(&format!("fn {name}(")) {
+                calls.extend(called(function, &module));
+            }
+        }
         assert!(
             calls.contains(entry.name),
             "`{}` is not what its entry calls",
@@ -200,6 +209,60 @@ fn every_function_has_a_twin_and_a_test() {
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
     assert!(all.len() > 150, "only {} functions were found", all.len());
+}
+
+/// Plain functions of a whole record, such as a map or a camera: every pixel of the phases compares them.
+const COMPARED_AS_PHASES: [&str; 3] = ["direct_incoming", "gbuffer_ray", "rsm_ray"];
+
+/// Functions of phases and geometry that read nothing but their arguments: name and file.
+fn plain() -> BTreeMap<String, &'static str> {
+    let mut out = BTreeMap::new();
+    for (file, _) in MODULES
+        .iter()
+        .filter(|(file, _)| file.starts_with("entry/"))
+    {
+        let module = parse(&link(&[file]));
+        let info = Validator::new(ValidationFlags::all(), Capabilities::empty())
+            .validate(&module)
+            .unwrap_or_else(|e| panic!("{file}: {e}"));
+        for (handle, function) in module.functions.iter() {
+            let reads =
+                |(global, _): (naga::Handle<naga::GlobalVariable>, &naga::GlobalVariable)| {
+                    !info[handle][global].is_empty()
+                };
+            let name = function.name.clone().expect("a name");
+            let head = format!("fn {name}(");
+            let home = MODULES.iter().find(|(_, text)| text.contains(&head));
+            let Some((home, _)) = home else { continue };
+            let folder = home.starts_with("geom/") || home.starts_with("phase/");
+            if folder && !module.global_variables.iter().any(reads) {
+                out.insert(name, *home);
+            }
+        }
+    }
+    out
+}
+
+#[test]
+fn plain_functions_of_phases_have_a_test() {
+    let (direct, _) = tested();
+    let mut wrong = Vec::new();
+    let mut public = BTreeMap::new();
+    for (name, file) in plain() {
+        let all = public.entry(file).or_insert_with(|| {
+            let path = format!("{}/../vsgl-core/src/{file}.rs", env!("CARGO_MANIFEST_DIR"));
+            if std::path::Path::new(&path).exists() {
+                twins(file)
+            } else {
+                BTreeMap::new()
+            }
+        });
+        let compared = direct.contains(&name) || COMPARED_AS_PHASES.contains(&name.as_str());
+        if all.get(&name) == Some(&true) && !compared {
+            wrong.push(format!("`{name}` in {file}.wgsl is not in the table"));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
 /// Files of core's mathematics that have twins at all.

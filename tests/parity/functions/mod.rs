@@ -10,6 +10,7 @@ mod glossy;
 mod listing;
 mod lobes;
 mod math;
+mod shading;
 mod table;
 
 use self::arguments::rows;
@@ -28,6 +29,7 @@ fn entries() -> Vec<Entry> {
     let mut all = math::entries();
     all.extend(lobes::entries());
     all.extend(glossy::entries());
+    all.extend(shading::entries());
     all
 }
 
@@ -56,9 +58,9 @@ impl Worst {
         if call.cpu.iter().zip(call.gpu).all(|(c, g)| c == g) {
             return;
         }
-        let scale = (entry.scale)(&call.arguments);
         let mut at = 0;
-        for part in entry.parts {
+        for (number, part) in entry.parts.iter().enumerate() {
+            let scale = (entry.scale)(&call.arguments, number);
             let span = at..at + part.len();
             at += part.len();
             let size = call.cpu[span.clone()]
@@ -155,9 +157,17 @@ fn compare(entry: &Entry, seed: u64, paths: &[Path], failed: &mut Vec<String>) {
     }
     let source = format!("{}{}", link(&[entry.file]), entry.shader());
     for path in paths {
-        let gpu = Probe::new(path.context(), &source)
-            .and_then(|p| p.run(path.context(), &numbers, (COUNT / 64) as u32, cpu.len()))
-            .unwrap_or_else(|e| panic!("{}: {e}", entry.name));
+        let probe = Probe::new(path.context(), &source);
+        let probe = probe.unwrap_or_else(|e| panic!("{}: {e}", entry.name));
+        // No binding above the 128 MiB that every device has.
+        let calls = if width > 24 { COUNT / 2 } else { COUNT };
+        let gpu: Vec<f32> = numbers
+            .chunks(calls * width)
+            .flat_map(|some| {
+                let run = probe.run(path.context(), some, (calls / 64) as u32, calls * results);
+                run.unwrap_or_else(|e| panic!("{}: {e}", entry.name))
+            })
+            .collect();
         let mut worst = Worst::default();
         for number in 0..COUNT {
             let span = number * results..(number + 1) * results;

@@ -3,8 +3,10 @@
 use super::arguments::Kind;
 use vsgl_core::brdf::albedo::Albedo;
 use vsgl_core::brdf::roughness::Roughness;
+use vsgl_core::geom::Ray;
 use vsgl_core::glam::Vec3;
 use vsgl_core::math::moments::{Moments, Scatter};
+use vsgl_core::phase::shade::Incoming;
 use vsgl_core::sg::asg::AsgLobe;
 use vsgl_core::sg::lobe::SgLobe;
 use vsgl_core::sg::polar::PolarMoments;
@@ -12,6 +14,9 @@ use vsgl_core::sg::vmf::MeanLength;
 
 /// A call in Rust, which appends the numbers of its result.
 type Call = Box<dyn Fn(&Arguments<'_>, &mut Vec<f32>)>;
+
+/// A size by arguments and part.
+type Scale = Box<dyn Fn(&Arguments<'_>, usize) -> f32>;
 
 /// A function in both languages.
 pub(super) struct Entry {
@@ -23,14 +28,16 @@ pub(super) struct Entry {
     pub(super) kinds: Vec<Kind>,
     /// The call in WGSL, of `x0`, `x1` …
     pub(super) call: String,
+    /// More text in WGSL.
+    pub(super) text: &'static str,
     /// Parts of the result in WGSL, each a group of numbers of one size; `r` is the result.
     pub(super) parts: &'static [&'static [&'static str]],
     /// The call in Rust: from arguments to the numbers of all parts.
     pub(super) rust: Call,
     /// Error in the ordinary path over the size of a part.
     pub(super) relative: f32,
-    /// Size of a part where its numbers are smaller.
-    pub(super) scale: Box<dyn Fn(&Arguments<'_>) -> f32>,
+    /// Size of a part, by its number, where its numbers are smaller.
+    pub(super) scale: Scale,
 }
 
 /// The arguments of one call.
@@ -95,6 +102,13 @@ flat!(SgLobe: ["r.axis.x", "r.axis.y", "r.axis.z"], ["r.sharpness"], ["r.log_amp
 flat!(AsgLobe: ["r.x.x", "r.x.y", "r.x.z"], ["r.y.x", "r.y.y", "r.y.z"], ["r.z.x", "r.z.y", "r.z.z"],
     ["r.sharpness_x"], ["r.sharpness_y"];
     l => l.x.x, l.x.y, l.x.z, l.y.x, l.y.y, l.y.z, l.z.x, l.z.y, l.z.z, l.sharpness_x, l.sharpness_y);
+flat!(Incoming: ["r.axis.x", "r.axis.y", "r.axis.z"], ["r.sharpness"], ["r.horizon"],
+    ["r.strength.x", "r.strength.y", "r.strength.z"];
+    i => i.axis.x, i.axis.y, i.axis.z, i.sharpness, i.horizon, i.strength.x, i.strength.y, i.strength.z);
+flat!(Ray: ["r.origin.x", "r.origin.y", "r.origin.z"], ["r.direction.x", "r.direction.y", "r.direction.z"],
+    ["r.inverse.x"], ["r.inverse.y"], ["r.inverse.z"];
+    r => r.origin.x, r.origin.y, r.origin.z, r.direction.x, r.direction.y, r.direction.z,
+    r.inverse.x, r.inverse.y, r.inverse.z);
 flat!(MeanLength: ["r.length"], ["r.complement"]; m => m.length, m.complement);
 flat!(PolarMoments: ["r.decay"], ["r.mass"], ["r.upper"], ["r.lower"];
     m => m.decay, m.mass, m.upper, m.lower);
@@ -114,10 +128,11 @@ pub(super) fn entry<T: Flat>(
         name,
         kinds: kinds.to_vec(),
         call: format!("{name}({})", names.join(", ")),
+        text: "",
         parts: T::PARTS,
         rust: Box::new(move |a, out| rust(a).flat(out)),
         relative: 1e-5,
-        scale: Box::new(|_| 0.0),
+        scale: Box::new(|_, _| 0.0),
     }
 }
 
@@ -125,6 +140,12 @@ impl Entry {
     /// Called by this text instead.
     pub(super) fn by(mut self, call: &str) -> Self {
         self.call = call.to_owned();
+        self
+    }
+
+    /// With functions for the call.
+    pub(super) fn with(mut self, text: &'static str) -> Self {
+        self.text = text;
         self
     }
 
@@ -136,7 +157,12 @@ impl Entry {
 
     /// In the ordinary path: the size that errors are measured against where results are smaller, being differences or
     /// products with a share.
-    pub(super) fn scale(mut self, scale: impl Fn(&Arguments<'_>) -> f32 + 'static) -> Self {
+    pub(super) fn scale(self, scale: impl Fn(&Arguments<'_>) -> f32 + 'static) -> Self {
+        self.scales(move |a, _| scale(a))
+    }
+
+    /// The same by parts.
+    pub(super) fn scales(mut self, scale: impl Fn(&Arguments<'_>, usize) -> f32 + 'static) -> Self {
         self.scale = Box::new(scale);
         self
     }
@@ -184,6 +210,6 @@ impl Entry {
             ));
         }
         text.push_str("}\n");
-        text
+        text + self.text
     }
 }
