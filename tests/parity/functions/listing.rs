@@ -211,8 +211,17 @@ fn every_function_has_a_twin_and_a_test() {
     assert!(all.len() > 150, "only {} functions were found", all.len());
 }
 
-/// Plain functions of a whole record, such as a map or a camera: every pixel of the phases compares them.
-const COMPARED_AS_PHASES: [&str; 3] = ["direct_incoming", "gbuffer_ray", "rsm_ray"];
+/// Plain functions of whole records, such as a map, a camera or the sums of a cluster: every pixel, cluster and round of the
+/// phases compares them.
+const COMPARED_AS_PHASES: [&str; 7] = [
+    "cluster_lights",
+    "direct_incoming",
+    "gbuffer_ray",
+    "rsm_ray",
+    "sum_merge",
+    "sum_scaled",
+    "sum_weight",
+];
 
 /// Functions of phases and geometry that read nothing but their arguments: name and file.
 fn plain() -> BTreeMap<String, &'static str> {

@@ -10,6 +10,7 @@ mod glossy;
 mod listing;
 mod lobes;
 mod math;
+mod sets;
 mod shading;
 mod table;
 
@@ -30,6 +31,7 @@ fn entries() -> Vec<Entry> {
     all.extend(lobes::entries());
     all.extend(glossy::entries());
     all.extend(shading::entries());
+    all.extend(sets::entries());
     all
 }
 

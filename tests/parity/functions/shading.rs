@@ -8,8 +8,8 @@ use vsgl_core::glam::Vec3;
 use vsgl_core::math::vec;
 use vsgl_core::phase::shade::{self, Colors, Incoming, PointSender, Receiver};
 use vsgl_core::sg::glossy::GlossyView;
-use vsgl_core::sg::vmf::{self, MeanLength};
 use vsgl_core::sg::lobe;
+use vsgl_core::sg::vmf::{self, MeanLength};
 
 pub(super) fn entries() -> Vec<Entry> {
     let mut all = geometry();

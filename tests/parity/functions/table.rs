@@ -6,6 +6,7 @@ use vsgl_core::brdf::roughness::Roughness;
 use vsgl_core::geom::Ray;
 use vsgl_core::glam::Vec3;
 use vsgl_core::math::moments::{Moments, Scatter};
+use vsgl_core::phase::partition::{Features, Statistics};
 use vsgl_core::phase::shade::Incoming;
 use vsgl_core::sg::asg::AsgLobe;
 use vsgl_core::sg::lobe::SgLobe;
@@ -109,6 +110,14 @@ flat!(Ray: ["r.origin.x", "r.origin.y", "r.origin.z"], ["r.direction.x", "r.dire
     ["r.inverse.x"], ["r.inverse.y"], ["r.inverse.z"];
     r => r.origin.x, r.origin.y, r.origin.z, r.direction.x, r.direction.y, r.direction.z,
     r.inverse.x, r.inverse.y, r.inverse.z);
+flat!(Features: ["r.weight"], ["r.position.x", "r.position.y", "r.position.z"],
+    ["r.normal.x", "r.normal.y", "r.normal.z"],
+    ["r.deviation_position.x", "r.deviation_position.y", "r.deviation_position.z"],
+    ["r.deviation_normal.x", "r.deviation_normal.y", "r.deviation_normal.z"];
+    f => f.weight, f.mean[0], f.mean[1], f.mean[2], f.mean[4], f.mean[5], f.mean[6],
+    f.deviation[0], f.deviation[1], f.deviation[2], f.deviation[4], f.deviation[5], f.deviation[6]);
+flat!(Statistics: ["r.priority"], ["f32(r.axis)"], ["r.threshold"];
+    s => s.priority, s.axis as f32, s.threshold);
 flat!(MeanLength: ["r.length"], ["r.complement"]; m => m.length, m.complement);
 flat!(PolarMoments: ["r.decay"], ["r.mass"], ["r.upper"], ["r.lower"];
     m => m.decay, m.mass, m.upper, m.lower);
