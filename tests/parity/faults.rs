@@ -311,6 +311,24 @@ fn a_texel_in_another_cluster_is_found_and_excuses_both_lights() {
 }
 
 #[test]
+fn a_wide_light_is_judged_though_sharp_ones_are_a_billion_times_sharper() {
+    let vsgls = &results().partition;
+    let sharpness = |i: &usize| vsgls.diffuse[*i].sharpness;
+    let lights = 0..vsgls.diffuse.len();
+    let widest = lights
+        .clone()
+        .filter(|i| sharpness(i) > 0.0)
+        .min_by(|a, b| sharpness(a).total_cmp(&sharpness(b)))
+        .expect("lights");
+    let sum: f32 = lights.map(|i| sharpness(&i)).sum();
+    assert!(sum > 1e9 * sharpness(&widest));
+    let comparison = found(vsgls, &Tolerance::SOFTWARE, |vsgls| {
+        vsgls.diffuse[widest].sharpness *= 1.001;
+    });
+    assert_eq!(place(&comparison, "diffuse"), Place::Light(widest as u32));
+}
+
+#[test]
 fn a_missing_column_and_another_size_are_findings() {
     let all = results();
     assert!(!all.radiance.indirect_glossy.is_empty());

@@ -132,6 +132,7 @@ impl Pair {
                     let size = match group.kind {
                         Kind::Vector => largest.max(floor * mean),
                         Kind::Points => largest.max(mean),
+                        Kind::Magnitudes => f64::from(r.abs()),
                         _ => f64::from(r.abs()).max(floor * mean),
                     };
                     let error = match distance {
@@ -241,7 +242,7 @@ fn differ(kind: Kind, tested: u32, reference: u32) -> bool {
         Kind::Decision | Kind::Light => tested != reference,
         Kind::Whole => t.is_finite() && r.is_finite() && t.floor() != r.floor(),
         Kind::Level => t.is_finite() && r.is_finite() && tested >> 23 != reference >> 23,
-        Kind::Numbers | Kind::Vector | Kind::Points => false,
+        Kind::Numbers | Kind::Magnitudes | Kind::Vector | Kind::Points => false,
     }
 }
 

@@ -17,6 +17,9 @@ pub(super) enum Kind {
     Level,
     /// Numbers, each of its own size.
     Numbers,
+    /// As [`Kind::Numbers`], over many magnitudes, none of them the difference of larger numbers: small beside their mean
+    /// is not small.
+    Magnitudes,
     /// One vector or tensor: errors are relative to its largest component.
     Vector,
     /// Points and distances: errors are relative to the column's mean size at least, since they come out of sums of
@@ -54,14 +57,14 @@ type Row = (
 /// Resource, column, order of entries, lanes. A column that is not here is taken as it comes; see [`meaning`].
 #[rustfmt::skip]
 const TABLE: &[Row] = {
-    use Kind::{Decision, Level, Light, Numbers, Points, Vector, Whole};
+    use Kind::{Decision, Level, Light, Magnitudes, Numbers, Points, Vector, Whole};
     use Layout::{Lights, Maps, Picture, Pyramid, TexelNumbers, Texels};
     &[
         ("gbuffer", "triangle", Picture, &[("", 1, Decision)]),
         ("gbuffer", "position", Picture, &[("position", 3, Points), ("depth", 1, Points)]),
         ("gbuffer", "normal", Picture, &[("normal", 3, Vector), ("f90", 1, Numbers)]),
         ("gbuffer", "diffuse", Picture, &[("albedo", 3, Numbers), ("f0", 1, Numbers)]),
-        ("gbuffer", "specular", Picture, &[("f0", 3, Numbers), ("alpha", 1, Numbers)]),
+        ("gbuffer", "specular", Picture, &[("f0", 3, Numbers), ("alpha", 1, Magnitudes)]),
         ("gbuffer", "grazing", Picture, &[("", 1, Numbers)]),
         ("radiance", "direct", Picture, &[("", 3, Numbers)]),
         ("radiance", "indirect_diffuse", Picture, &[("", 3, Numbers)]),
@@ -78,22 +81,22 @@ const TABLE: &[Row] = {
             ("intensity", 3, Numbers), ("padding", 1, Numbers),
         ]),
         ("rsm", "triangle", Texels, &[("", 1, Decision)]),
-        ("rsm", "position", Texels, &[("position", 3, Points), ("area", 1, Numbers)]),
+        ("rsm", "position", Texels, &[("position", 3, Points), ("area", 1, Magnitudes)]),
         ("rsm", "normal", Texels, &[("normal", 3, Vector), ("f90", 1, Numbers)]),
         ("rsm", "diffuse", Texels, &[("flux", 3, Numbers), ("f0", 1, Numbers)]),
-        ("rsm", "specular", Texels, &[("flux", 3, Numbers), ("alpha", 1, Numbers)]),
+        ("rsm", "specular", Texels, &[("flux", 3, Numbers), ("alpha", 1, Magnitudes)]),
         ("rsm", "grazing", Texels, &[("flux", 3, Numbers), ("luminance", 1, Numbers)]),
         ("pdf", "weight", Pyramid, &[("", 1, Numbers)]),
         ("pdf", "share", Maps, &[("", 1, Decision)]),
         ("vsgls", "diffuse", Lights, &[
-            ("position", 3, Points), ("variance", 1, Numbers), ("axis", 3, Vector), ("sharpness", 1, Numbers),
-            ("intensity", 3, Numbers), ("complement", 1, Numbers), ("light", 3, Vector), ("f0", 1, Numbers),
+            ("position", 3, Points), ("variance", 1, Magnitudes), ("axis", 3, Vector), ("sharpness", 1, Magnitudes),
+            ("intensity", 3, Numbers), ("complement", 1, Magnitudes), ("light", 3, Vector), ("f0", 1, Numbers),
             ("covariance", 6, Vector), ("f90", 1, Numbers), ("bulge", 1, Points),
         ]),
         ("vsgls", "specular", Lights, &[
-            ("position", 3, Points), ("variance", 1, Numbers), ("axis", 3, Vector), ("complement", 1, Numbers),
-            ("mirror", 3, Vector), ("complement_mirror", 1, Numbers), ("light", 3, Vector),
-            ("sharpness_lobe", 1, Numbers), ("f0", 3, Numbers), ("alpha", 1, Numbers), ("f90", 3, Numbers),
+            ("position", 3, Points), ("variance", 1, Magnitudes), ("axis", 3, Vector), ("complement", 1, Magnitudes),
+            ("mirror", 3, Vector), ("complement_mirror", 1, Magnitudes), ("light", 3, Vector),
+            ("sharpness_lobe", 1, Magnitudes), ("f0", 3, Numbers), ("alpha", 1, Magnitudes), ("f90", 3, Numbers),
             ("bulge", 1, Points), ("covariance", 6, Vector), ("padding", 2, Numbers),
         ]),
         ("vsgls", "target", Lights, &[
