@@ -27,7 +27,7 @@ pub(super) fn entries() -> Vec<Entry> {
     let set = [weight, place, deviation, Unit, deviation];
     const ONE: &str = "Features(x1, x0, x3, abs(x2), abs(x4))";
     vec![
-        entry("phase/pdf", "pdf_unit", &[Signed(1e-38, 1e38)], |a| {
+        entry("phase/unit", "pdf_unit", &[Signed(1e-38, 1e38)], |a| {
             pdf::unit(a.f(0).to_bits())
         })
         .by("pdf_unit(bitcast<u32>(x0))"),
