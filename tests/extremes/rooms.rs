@@ -1,6 +1,6 @@
 //! Small scenes at the edge.
 
-use vsgl_core::glam::Vec3;
+use vsgl_core::glam::{Quat, Vec3};
 use vsgl_core::scene::{Camera, Light, Material, Mesh, Scene, SpotLight, samples};
 use vsgl_core::settings::{Preset, Settings};
 use vsgl_tests::measure::fault;
@@ -13,14 +13,6 @@ pub(crate) fn sample(name: &str) -> Shot {
 
 fn cheap(scene: Scene) -> Shot {
     Shot::of(scene).size(32, 18).with("lights=32 rsm=32")
-}
-
-/// The spots of a shot.
-pub(crate) fn spots(shot: &mut Shot) -> impl Iterator<Item = &mut SpotLight> {
-    shot.lights.iter_mut().map(|light| match light {
-        Light::Spot(spot) => spot,
-        _ => panic!("a light of another kind"),
-    })
 }
 
 /// Cornell with one thing changed.
@@ -37,13 +29,7 @@ pub(crate) fn materials(change: impl Fn(&mut Material)) -> Shot {
 
 /// Everything multiplied in size, the light's intensity as it is.
 pub(crate) fn scaled(factor: f32) -> Shot {
-    changed(|shot| {
-        for position in &mut shot.scene.mesh.positions {
-            *position *= factor;
-        }
-        spots(shot).for_each(|s| s.position *= factor);
-        shot.view.camera.eye *= factor;
-    })
+    changed(|_| ()).placed(Quat::IDENTITY, factor, Vec3::ZERO)
 }
 
 /// Triangles, a material, a spot at `light` that shines at the origin, and an eye.

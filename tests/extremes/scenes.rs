@@ -1,6 +1,6 @@
 //! One thing at the edge at a time.
 
-use crate::rooms::{changed, floor, made, materials, sample, scaled, sound, spots};
+use crate::rooms::{changed, floor, made, materials, sample, scaled, sound};
 use vsgl_core::glam::Vec3;
 use vsgl_core::scene::{Camera, Material};
 
@@ -67,10 +67,10 @@ fn black_surfaces_reflect_nothing() {
 
 #[test]
 fn a_light_without_light() {
-    let dark = changed(|shot| spots(shot).for_each(|s| s.intensity = [0.0; 3]));
+    let dark = changed(|shot| shot.spots().for_each(|s| s.intensity = [0.0; 3]));
     assert_eq!(sound("no intensity", &dark), 0.0);
     for intensity in [1e-30, 1e-12, 1e12] {
-        let shot = changed(|shot| spots(shot).for_each(|s| s.intensity = [intensity; 3]));
+        let shot = changed(|shot| shot.spots().for_each(|s| s.intensity = [intensity; 3]));
         sound(&format!("intensity {intensity:e}"), &shot);
     }
 }
@@ -82,7 +82,7 @@ fn lights_in_bad_places() {
         "on a corner",
         &changed(|shot| {
             let corner = mesh_point(shot);
-            spots(shot).for_each(|s| s.position = corner);
+            shot.spots().for_each(|s| s.position = corner);
         }),
     );
     sound(
@@ -90,7 +90,7 @@ fn lights_in_bad_places() {
         &changed(|shot| {
             let all = &shot.scene.mesh.positions[24..48];
             let middle = all.iter().sum::<Vec3>() / all.len() as f32;
-            spots(shot).for_each(|s| s.position = middle);
+            shot.spots().for_each(|s| s.position = middle);
         }),
     );
     let floor_y = sample("cornell").scene.bounds().0.y;
@@ -98,21 +98,23 @@ fn lights_in_bad_places() {
         sound(
             &format!("{height} above the floor"),
             &changed(|shot| {
-                spots(shot).for_each(|s| {
+                shot.spots().for_each(|s| {
                     s.position.y = floor_y + height;
                     s.axis = Vec3::NEG_Y;
                 });
             }),
         );
     }
-    let away =
-        changed(|shot| spots(shot).for_each(|s| (s.position, s.axis) = (Vec3::Y * 100.0, Vec3::Y)));
+    let away = changed(|shot| {
+        shot.spots()
+            .for_each(|s| (s.position, s.axis) = (Vec3::Y * 100.0, Vec3::Y))
+    });
     assert_eq!(sound("pointing to nothing", &away), 0.0);
     sound(
         "at the eye",
         &changed(|shot| {
             let eye = shot.view.camera.eye;
-            spots(shot).for_each(|s| s.position = eye);
+            shot.spots().for_each(|s| s.position = eye);
         }),
     );
 }
@@ -127,7 +129,7 @@ fn narrow_and_wide_cones() {
         (0.0, 1e-5),
     ] {
         let shot = changed(|shot| {
-            spots(shot).for_each(|s| {
+            shot.spots().for_each(|s| {
                 s.inner = f32::to_radians(inner);
                 s.outer = f32::to_radians(outer);
             });
@@ -225,7 +227,7 @@ fn all_texels_at_one_point() {
         Vec3::new(0.0, 1.0, 0.5),
     );
     sound("a near light", &near);
-    spots(&mut near).for_each(|s| s.outer = 1e-6);
+    near.spots().for_each(|s| s.outer = 1e-6);
     sound("a near light of no width", &near);
 }
 

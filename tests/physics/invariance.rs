@@ -10,25 +10,10 @@ use vsgl_tests::measure::{quantile, relative_differences};
 use vsgl_tests::render::Shot;
 
 /// The scene turned, then scaled, with the light's intensity so that radiances stay what they are.
-fn moved(mut shot: Shot, scale: f32, turn: Quat) -> Shot {
-    for position in &mut shot.scene.mesh.positions {
-        *position = turn * *position * scale;
-    }
-    for normal in &mut shot.scene.mesh.normals {
-        *normal = (turn * *normal).normalize();
-    }
-    for light in &mut shot.lights {
-        let Light::Spot(spot) = light else {
-            panic!("a light of another kind")
-        };
-        spot.position = turn * spot.position * scale;
-        spot.axis = (turn * spot.axis).normalize();
+fn moved(shot: Shot, scale: f32, turn: Quat) -> Shot {
+    let mut shot = shot.placed(turn, scale, Vec3::ZERO);
+    for spot in shot.spots() {
         spot.intensity = spot.intensity.map(|i| i * (scale * scale));
-    }
-    let camera = &mut shot.view.camera;
-    camera.eye = turn * camera.eye * scale;
-    for axis in [&mut camera.forward, &mut camera.right, &mut camera.up] {
-        *axis = (turn * *axis).normalize();
     }
     shot
 }

@@ -6,3 +6,4 @@ pub mod gpu;
 pub mod measure;
 pub mod random;
 pub mod render;
+pub mod view;

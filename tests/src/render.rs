@@ -3,9 +3,10 @@
 use std::sync::Arc;
 use vsgl_core::backend::Backend;
 use vsgl_core::data::{Image, SceneData};
+use vsgl_core::glam::{Quat, Vec3};
 use vsgl_core::plan::Plan;
 use vsgl_core::render::{Frame, View, render};
-use vsgl_core::scene::{Camera, Light, Scene, SceneFacts, samples};
+use vsgl_core::scene::{Camera, Light, Scene, SceneFacts, SpotLight, samples};
 use vsgl_core::settings::Settings;
 use vsgl_cpu::CpuBackend;
 
@@ -77,6 +78,33 @@ impl Shot {
     pub fn seen_by(mut self, camera: Camera) -> Self {
         self.view.camera = camera;
         self
+    }
+
+    /// Turned, then scaled, then moved: scene, lights and camera. Intensities stay as they are.
+    #[must_use]
+    pub fn placed(mut self, turn: Quat, scale: f32, offset: Vec3) -> Self {
+        let place = |position: &mut Vec3| *position = turn * *position * scale + offset;
+        let face = |direction: &mut Vec3| *direction = (turn * *direction).normalize();
+        self.scene.mesh.positions.iter_mut().for_each(place);
+        self.scene.mesh.normals.iter_mut().for_each(face);
+        for spot in self.spots() {
+            place(&mut spot.position);
+            face(&mut spot.axis);
+        }
+        let camera = &mut self.view.camera;
+        place(&mut camera.eye);
+        for direction in [&mut camera.forward, &mut camera.right, &mut camera.up] {
+            face(direction);
+        }
+        self
+    }
+
+    /// The spot lights that shine.
+    pub fn spots(&mut self) -> impl Iterator<Item = &mut SpotLight> {
+        self.lights.iter_mut().filter_map(|light| match light {
+            Light::Spot(spot) => Some(spot),
+            _ => None,
+        })
     }
 
     /// What the scene contains.

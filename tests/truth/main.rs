@@ -4,4 +4,3 @@
 //! light without indirect shadows, by the sum over very many points. Scenes, cameras and lights are in `views.json`.
 
 mod scenes;
-mod view;

@@ -4,12 +4,12 @@
 //! 1.0, 1.0 and 4.0 % without indirect shadows and 2.3, 1.3, 3.6 and 3.4 % with them, in the order below. With shadows the
 //! references of `zdm2` and `breakfast` have 3 to 4 % of noise and missing light of their own.
 
-use crate::view::{reference, shot};
 use std::path::Path;
 use vsgl_core::data::Image;
 use vsgl_core::metrics::{Metric, Plane, compare};
 use vsgl_tests::assets::assets;
 use vsgl_tests::measure::quantile;
+use vsgl_tests::view::{reference, shot};
 
 /// Limits in percent: MAPE and energy of 8x8 blocks, without and with indirect shadows.
 struct Limits {

@@ -267,6 +267,11 @@ impl Context {
             .map_err(|problem| self.error(problem, "try again, or use `--backend cpu`"))
     }
 
+    /// Pipelines made since the start.
+    pub fn pipelines_made(&self) -> usize {
+        self.kernels.made()
+    }
+
     pub(crate) fn timer(&self) -> Option<&Timer> {
         self.timer.as_ref()
     }

@@ -52,6 +52,11 @@ pub(crate) struct Kernels {
 }
 
 impl Kernels {
+    /// How many were made.
+    pub(crate) fn made(&self) -> usize {
+        self.made.lock().map_or(0, |made| made.len())
+    }
+
     /// The pipeline, made now if it was not yet.
     pub(crate) fn get(
         &self,

@@ -1,17 +1,23 @@
-//! One view of the ground truth: its scene, and its reference pictures.
+//! Views of the ground truth: their scenes, and their reference pictures.
 
+use crate::render::Shot;
 use std::path::Path;
 use vsgl_cli::input;
 use vsgl_core::glam::{DVec3, Vec3};
 use vsgl_core::metrics::{Plane, luminance};
 use vsgl_core::scene::{Camera, Light, SpotLight, gltf};
-use vsgl_tests::render::Shot;
 
 /// Size of the references.
 const SIZE: (u32, u32) = (320, 180);
 
+/// Names of the views.
+pub const VIEWS: [&str; 4] = ["room_spot", "cornell", "zdm2", "breakfast"];
+
 /// The view of this name: 1024 lights from 512² texels, one sample in the middle of a pixel.
-pub(crate) fn shot(root: &Path, name: &str) -> Shot {
+///
+/// # Panics
+/// If the folder `root` of the assets has no such view, or its scene cannot be read.
+pub fn shot(root: &Path, name: &str) -> Shot {
     let text = std::fs::read_to_string(root.join("ground-truth/views.json")).expect("views.json");
     let views: serde_json::Value = serde_json::from_str(&text).expect("JSON");
     let view = &views[name];
@@ -62,7 +68,10 @@ fn light(words: &str, origin: DVec3) -> Light {
 }
 
 /// Luminances of a reference.
-pub(crate) fn reference(root: &Path, name: &str, kind: &str) -> Plane {
+///
+/// # Panics
+/// If the folder `root` of the assets has no such picture.
+pub fn reference(root: &Path, name: &str, kind: &str) -> Plane {
     let path = root.join(format!("ground-truth/{name}_{kind}.exr"));
     let picture = input::read(&path).expect("an EXR file").picture;
     assert_eq!((picture.width, picture.height), SIZE);

@@ -1,0 +1,169 @@
+//! Every phase and the whole pipeline, CPU against GPU backend, scene by scene.
+//!
+//! In strict mode every bit agrees on software drivers. The ordinary path is what users run.
+
+use std::path::Path;
+use vsgl_core::data::SceneData;
+use vsgl_core::parity::{Origin, Party, Stage, Subject, Tolerance, chain};
+use vsgl_cpu::CpuBackend;
+use vsgl_tests::assets::assets;
+use vsgl_tests::gpu::{Tier, device};
+use vsgl_tests::render::Shot;
+use vsgl_tests::view::{VIEWS, shot};
+
+const SAMPLES: [&str; 6] = [
+    "cornell",
+    "glossy-floor",
+    "columns",
+    "caustic-ring",
+    "roughness-row",
+    "many-lights:3",
+];
+
+/// Asserts that the backends agree on a scene; nothing if this machine lacks the adapter.
+pub(crate) fn agree(name: &str, shot: &Shot, tier: Tier, strict: bool) {
+    let tests = format!("parity of {name} on {tier:?}");
+    let Some(gpu) = device(tier, strict, &tests) else {
+        return;
+    };
+    let cpu = CpuBackend::new(2).expect("threads");
+    let info = gpu.context().info();
+    let reference = Party {
+        backend: &cpu,
+        origin: Origin::new("cpu", ""),
+    };
+    let tested = Party {
+        backend: &*gpu,
+        origin: Origin::new("wgpu", &info.name),
+    };
+    let (scene, plan) = (SceneData::new(&shot.scene), shot.plan());
+    let subject = Subject {
+        scene: &scene,
+        lights: &shot.lights,
+        view: &shot.view,
+        plan: &plan,
+    };
+    let tolerance = match (tier, strict) {
+        (Tier::Hardware, _) => Tolerance::HARDWARE,
+        (_, true) => Tolerance::STRICT,
+        (_, false) => Tolerance::SOFTWARE,
+    };
+    let steps = chain(&reference, &tested, &subject, &tolerance, &()).expect(name);
+    let mut failures = Vec::new();
+    for step in &steps {
+        let lines = step.comparison.failures();
+        failures.extend(
+            lines
+                .into_iter()
+                .map(|line| format!("{}: {line}", step.stage)),
+        );
+    }
+    assert!(
+        failures.is_empty(),
+        "{name} on {}:\n{}",
+        info.name,
+        failures.join("\n")
+    );
+    assert!(
+        steps.iter().any(|step| step.stage == Stage::Frame),
+        "the frame was compared too"
+    );
+}
+
+fn sample(name: &str) -> Shot {
+    Shot::sample(name).size(320, 180).with("lights=256 rsm=512")
+}
+
+fn views(size: (u32, u32), settings: &str, tier: Tier, strict: bool) {
+    let Some(_) = assets("ground-truth", &format!("parity of the views on {tier:?}")) else {
+        return;
+    };
+    let root = assets("", "the views").expect("the folder of the ground truth is in it");
+    for name in VIEWS {
+        let shot = self::shot(Path::new(&root), name)
+            .size(size.0, size.1)
+            .with(settings);
+        agree(name, &shot, tier, strict);
+    }
+}
+
+#[test]
+fn samples_bit_by_bit_on_lavapipe() {
+    for name in SAMPLES {
+        agree(name, &sample(name), Tier::Lavapipe, true);
+    }
+}
+
+#[test]
+fn views_bit_by_bit_on_lavapipe() {
+    views((320, 180), "lights=256", Tier::Lavapipe, true);
+}
+
+#[test]
+fn samples_as_users_run_them_on_lavapipe() {
+    for name in SAMPLES {
+        agree(name, &sample(name).size(160, 90), Tier::Lavapipe, false);
+    }
+}
+
+#[test]
+fn views_as_users_run_them_on_lavapipe() {
+    views((160, 90), "lights=64", Tier::Lavapipe, false);
+}
+
+#[test]
+fn a_smaller_set_on_swiftshader() {
+    for name in SAMPLES {
+        let shot = Shot::sample(name).size(96, 54).with("lights=64 rsm=128");
+        agree(name, &shot, Tier::SwiftShader, true);
+        agree(name, &shot, Tier::SwiftShader, false);
+    }
+    views((96, 54), "lights=64 rsm=128", Tier::SwiftShader, true);
+}
+
+#[test]
+fn everything_on_hardware() {
+    for name in SAMPLES {
+        agree(name, &sample(name), Tier::Hardware, false);
+    }
+    views((320, 180), "lights=256", Tier::Hardware, false);
+}
+
+#[test]
+fn every_choice_of_the_settings() {
+    let choices = [
+        "diffuse=2024",
+        "diffuse=constant",
+        "glossy=ndf-filter-2024",
+        "emission=sg",
+        "emission=sg glossy=asg-2013",
+        "occlusion=none",
+        "clustering=filtered",
+        "clustering=filtered emission=sg sharpness=toksvig variance=trace diffuse=constant glossy=asg-2013",
+        "sharpness=toksvig",
+        "variance=trace",
+        "method=vpl rsm=16",
+        "method=vpl rsm=16 occlusion=none",
+    ];
+    for choice in choices {
+        let shot = Shot::sample("cornell")
+            .with("lights=32 rsm=64")
+            .with(choice);
+        agree(choice, &shot, Tier::Lavapipe, true);
+        agree(choice, &shot, Tier::Lavapipe, false);
+    }
+}
+
+#[test]
+fn several_samples_a_pixel_and_every_other_pixel() {
+    for (aa, stride) in [(2, 1), (3, 1), (1, 3), (2, 2)] {
+        let mut shot = Shot::sample("columns").with("lights=32");
+        (shot.view.aa, shot.view.stride) = (aa, stride);
+        agree(
+            &format!("aa {aa}, stride {stride}"),
+            &shot,
+            Tier::Lavapipe,
+            true,
+        );
+    }
+}
