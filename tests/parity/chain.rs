@@ -47,6 +47,10 @@ impl Backend for Faulty {
         self.cpu.download(resource)
     }
 
+    fn finish(&self) -> Result<()> {
+        self.cpu.finish()
+    }
+
     fn gbuffer(
         &self,
         scene: &Arc<SceneData>,

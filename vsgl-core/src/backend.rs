@@ -26,6 +26,12 @@ pub trait Backend: Sized {
     /// If the device failed.
     fn download<T: Columns>(&self, resource: &Self::Res<T>) -> Result<T>;
 
+    /// Waits until all that was asked for has been done: a phase may return before.
+    ///
+    /// # Errors
+    /// If the device failed.
+    fn finish(&self) -> Result<()>;
+
     /// What the camera sees through each sample of the picture.
     ///
     /// # Errors

@@ -85,6 +85,10 @@ impl Backend for CpuBackend {
         Ok(T::clone(resource))
     }
 
+    fn finish(&self) -> Result<()> {
+        Ok(())
+    }
+
     fn gbuffer(
         &self,
         scene: &Arc<SceneData>,

@@ -84,6 +84,10 @@ impl Backend for WgpuBackend {
         resource.download(&self.context)
     }
 
+    fn finish(&self) -> Result<()> {
+        self.context.wait()
+    }
+
     fn gbuffer(
         &self,
         scene: &WgpuRes<SceneData>,
