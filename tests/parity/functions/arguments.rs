@@ -132,6 +132,7 @@ fn unit(random: &mut Random, special: bool, earlier: &[Vec3]) -> Vec3 {
     let turn = random.even(0.0, std::f32::consts::TAU);
     let ring = (1.0 - height * height).max(0.0).sqrt();
     let free = Vec3::new(ring * turn.cos(), ring * turn.sin(), height);
+    let near = if random.gentle { 1e-4 } else { 1e-8 };
     let v = match (earlier, random.below(8)) {
         (_, 0 | 1) if special => {
             let mut axis = [0.0; 3];
@@ -140,8 +141,9 @@ fn unit(random: &mut Random, special: bool, earlier: &[Vec3]) -> Vec3 {
         }
         ([.., last], 2) if special => return *last,
         ([.., last], 3) if special => return -*last,
-        ([.., last], 4) => *last + free * random.logarithmic(1e-8, 1.0),
-        ([.., last], 5) => free * random.logarithmic(1e-8, 1e-2) - *last,
+        ([.., last], 4) => *last + free * random.logarithmic(near, 1.0),
+        // Half vectors of opposite directions are so short that their fourth powers count.
+        ([.., last], 5) => free * random.logarithmic(near, 1e-2) - *last,
         // Near the mirrored direction of the first about the second.
         ([first, second, ..], 6) => first.reflect(*second) + free * random.logarithmic(1e-8, 0.3),
         // Perpendicular to the last but a little.

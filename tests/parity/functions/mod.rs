@@ -1,9 +1,10 @@
 //! Every function of the shaders' mathematics against its twin in core, over a million arguments each.
 //!
-//! In strict mode on a software driver the bits must agree; on one that takes numbers below the normal ones for zero,
-//! arguments keep away from them, and what is left of that in a result must be below 1e-12 of its size. In the ordinary path a driver may regroup sums and products;
-//! a result may then be 16 roundings off, or a share of its size that the table states: 1e-5 unless the function magnifies
-//! the rounding of what goes into it.
+//! In strict mode on a software driver the bits must agree. On one that takes numbers below the normal ones for zero,
+//! arguments keep away from them, and what is left of that in a result must be below 1e-12 of its size or below 1e-20.
+//!
+//! In the ordinary path a driver may regroup sums and products; a result may then be 16 roundings off, or a share of its
+//! size that the table states: 1e-5 unless the function magnifies the rounding of what goes into it.
 
 mod arguments;
 mod glossy;
@@ -79,7 +80,7 @@ impl Worst {
                 let relative = apart / f64::from(size.max(f32::MIN_POSITIVE));
                 self.relative = self.relative.max(relative);
                 // Numbers below the normal ones became zero on the way.
-                let flushed = path.flushes && (relative <= 1e-12 || c.abs().max(g.abs()) < 1e-30);
+                let flushed = path.flushes && (relative <= 1e-12 || c.abs().max(g.abs()) < 1e-20);
                 let error = if !c.is_finite() || !g.is_finite() {
                     f64::INFINITY
                 } else if flushed {
