@@ -41,6 +41,24 @@ fn present() -> &'static [(Tier, String)] {
     })
 }
 
+/// Whether this machine has any adapter; if not, the tests that do without are counted.
+///
+/// # Panics
+/// As [`device`].
+pub fn some(tests: &str) -> bool {
+    if !present().is_empty() {
+        return true;
+    }
+    let off = std::env::var_os("VSGL_GPU").is_some_and(|v| v == "off");
+    assert!(
+        off && std::env::var_os("CI").is_none(),
+        "no graphics adapter: run `scripts/test`, which installs a software driver, or install one (Debian, Ubuntu: \
+         apt-get install mesa-vulkan-drivers libvulkan1); VSGL_GPU=off skips these tests"
+    );
+    skipped(tests, "VSGL_GPU is off");
+    false
+}
+
 type Slot = OnceLock<Mutex<WgpuBackend>>;
 
 /// The device of a tier, locked for one test; none if this machine has no such adapter, which is counted.
@@ -50,14 +68,7 @@ type Slot = OnceLock<Mutex<WgpuBackend>>;
 /// `VSGL_GPU=off` lets them, except where `CI` is set.
 pub fn device(tier: Tier, strict: bool, tests: &str) -> Option<MutexGuard<'static, WgpuBackend>> {
     static SLOTS: [[Slot; 2]; 3] = [const { [const { OnceLock::new() }; 2] }; 3];
-    if present().is_empty() {
-        let off = std::env::var_os("VSGL_GPU").is_some_and(|v| v == "off");
-        assert!(
-            off && std::env::var_os("CI").is_none(),
-            "no graphics adapter: run `scripts/test`, which installs a software driver, or install one (Debian, Ubuntu: \
-             apt-get install mesa-vulkan-drivers libvulkan1); VSGL_GPU=off skips these tests"
-        );
-        skipped(tests, "VSGL_GPU is off");
+    if !some(tests) {
         return None;
     }
     let Some((_, name)) = present().iter().find(|(t, _)| *t == tier) else {
