@@ -3,6 +3,7 @@
 mod chain;
 mod devices;
 mod edges;
+mod embed;
 mod faults;
 mod frames;
 mod functions;

@@ -61,7 +61,7 @@ impl Seen {
     }
 
     /// Distance of a sample from the nearest edge of a triangle as it is drawn, in samples.
-    fn from_edge(&self, triangle: u32, sample: usize) -> f64 {
+    fn to_edge(&self, triangle: u32, sample: usize) -> f64 {
         let Some(corners) = self.data.corner.get(triangle as usize) else {
             return f64::INFINITY;
         };
@@ -106,12 +106,12 @@ impl Seen {
     fn check(&self, name: &str) {
         let differing = self.differing();
         let all = self.rays.triangle.len();
-        let at_edge = |i: &usize| self.from_edge(self.rays.triangle[*i], *i) <= APART;
+        let at_edge = |i: &usize| self.to_edge(self.rays.triangle[*i], *i) <= APART;
         let edges = (0..all).filter(at_edge).count() as f64;
         let mut furthest = 0.0f64;
         for &sample in &differing {
             let ids = [self.rays.triangle[sample], self.raster.triangle[sample]];
-            let apart = ids.map(|id| self.from_edge(id, sample));
+            let apart = ids.map(|id| self.to_edge(id, sample));
             let depths = ids.map(|id| self.depth(id, sample));
             furthest = furthest.max(apart[0].min(apart[1]));
             let close = match depths {

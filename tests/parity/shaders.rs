@@ -11,7 +11,7 @@ use vsgl_core::settings::{
     Clustering, DiffuseForm, Emission, GlossyForm, Method, OcclusionMethod, Primary, Settings,
     SharpnessFit, Variance,
 };
-use vsgl_wgpu::{KernelId, MODULES, kernels, link, wgpu};
+use vsgl_wgpu::{KernelId, MODULES, interop, kernels, link, wgpu};
 
 /// Every plan: all choices of all settings, for scenes that have and lack what a plan asks about.
 fn plans() -> Vec<Plan> {
@@ -75,11 +75,10 @@ fn all_settings() -> Vec<Settings> {
 fn all_kernels() -> BTreeMap<&'static str, Vec<KernelId>> {
     let mut seen = BTreeSet::new();
     let mut by_file: BTreeMap<&str, Vec<KernelId>> = BTreeMap::new();
-    for plan in plans() {
-        for id in kernels(&plan) {
-            if seen.insert(format!("{id:?}")) {
-                by_file.entry(id.file).or_default().push(id);
-            }
+    let planned = plans().into_iter().flat_map(|plan| kernels(&plan));
+    for id in planned.chain(interop::kernels()) {
+        if seen.insert(format!("{id:?}")) {
+            by_file.entry(id.file).or_default().push(id);
         }
     }
     by_file

@@ -5,9 +5,11 @@ use crate::kernel::{Constant, Kernel, KernelId, Kernels};
 use crate::pool::{Pool, Pooled};
 use crate::raster::{Targets, TargetsKept};
 use crate::recorder::Uniforms;
+use crate::res::WgpuRes;
 use crate::timing::{Timer, Timings};
 use crate::{passes, raster};
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, OnceLock};
+use vsgl_core::data::SceneData;
 use vsgl_core::plan::Plan;
 use vsgl_core::settings::Primary;
 use vsgl_core::{Error, Result};
@@ -104,6 +106,8 @@ pub struct Context {
     uniforms: Uniforms,
     timer: Option<Timer>,
     failure: Arc<Mutex<Option<String>>>,
+    /// A scene that blocks nothing, once a host needs it.
+    nothing: OnceLock<WgpuRes<SceneData>>,
     /// The submission that [`Self::wait_but_one`] waits for next.
     last: Mutex<Option<wgpu::SubmissionIndex>>,
 }
@@ -199,6 +203,7 @@ impl Context {
             uniforms: Uniforms::new(&device),
             timer: options.timing.then(|| Timer::new(&device, &queue)),
             failure: Arc::default(),
+            nothing: OnceLock::new(),
             last: Mutex::default(),
             strict: options.strict,
             info,
@@ -293,6 +298,19 @@ impl Context {
     fn made(&self, id: &KernelId) -> Result<Arc<Kernel>> {
         let made = self.kernels.get(&self.device, self.strict, id);
         made.map_err(|problem| self.error(problem, "report it, with the adapter's name and driver"))
+    }
+
+    /// A scene that blocks nothing: no box to enter, and one triangle for ids to name.
+    pub(crate) fn nothing(&self) -> Result<&WgpuRes<SceneData>> {
+        if self.nothing.get().is_none() {
+            let scene = SceneData {
+                corner: vec![[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0]],
+                ..SceneData::default()
+            };
+            // If another thread was faster, its scene is as good.
+            let _ = self.nothing.set(WgpuRes::upload(self, &scene)?);
+        }
+        Ok(self.nothing.get().expect("it was set"))
     }
 
     /// The render pipeline of a file of shaders for a target.

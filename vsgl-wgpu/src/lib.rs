@@ -33,6 +33,7 @@ mod backend;
 mod constants;
 mod context;
 mod drawing;
+pub mod interop;
 mod kernel;
 #[cfg(test)]
 mod layout;

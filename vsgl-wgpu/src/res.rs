@@ -154,17 +154,6 @@ impl<T: Columns> WgpuRes<T> {
         column.bytes / column.stride
     }
 
-    /// Writes a column from the host.
-    pub(crate) fn write(&self, context: &Context, name: &str, bytes: &[u8]) {
-        if let Place::Buffer { index, offset } = self.column(name).place
-            && !bytes.is_empty()
-        {
-            context
-                .queue()
-                .write_buffer(&self.buffers[index], offset, bytes);
-        }
-    }
-
     /// Where a column begins among the words of [`Self::texels`].
     pub(crate) fn first_word(&self, name: &str) -> u32 {
         match self.column(name).place {

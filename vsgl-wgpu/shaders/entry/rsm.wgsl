@@ -27,6 +27,7 @@ struct Params {
 @group(0) @binding(9) var<storage, read_write> triangle_out: array<u32>;
 // Columns position, normal, diffuse, specular, grazing, one after the other.
 @group(0) @binding(10) var<storage, read_write> texel_out: array<vec4<f32>>;
+@group(0) @binding(11) var<storage, read_write> map_out: array<MapRecord>;
 
 @compute @workgroup_size(INVOCATIONS)
 fn visibility(
@@ -36,6 +37,9 @@ fn visibility(
     let i = item_index(invocation, groups);
     if i >= params.size * params.size {
         return;
+    }
+    if i == 0u {
+        map_out[params.first / (params.size * params.size)] = params.map;
     }
     let sent = rsm_ray(params.map, params.size, i % params.size, i / params.size);
     var id = NO_TRIANGLE;

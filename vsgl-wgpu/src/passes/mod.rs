@@ -1,8 +1,10 @@
 //! One file a phase: what its kernels bind, and in which order they run. Everything is recorded into the caller's encoder.
 
 pub(crate) mod cluster;
+pub(crate) mod export;
 mod filtered;
 pub(crate) mod gbuffer;
+pub(crate) mod import;
 mod partition;
 pub(crate) mod pdf;
 pub(crate) mod resolve;

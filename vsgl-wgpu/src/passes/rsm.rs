@@ -65,7 +65,6 @@ pub(crate) fn record(
             ("grazing", 16, glossy),
         ],
     )?;
-    made.write(context, "map", bytemuck::cast_slice(&maps));
     let visibility = context.kernel("entry/rsm", "visibility", &[])?;
     // A plan made by hand may ask for textures that the scene has not.
     let textures = plan.textures && scene.len("corner_texcoord") > 0;
@@ -87,6 +86,9 @@ pub(crate) fn record(
                 ("node", scene.bind("node")),
                 ("corner", scene.bind("corner")),
                 ("triangle_out", made.bind("triangle")),
+                // Not from the host: what it writes comes before all that is recorded, and a host may have recorded
+                // something that used this buffer before.
+                ("map_out", made.bind("map")),
             ],
             Groups::Items(side),
         )?;
