@@ -45,6 +45,15 @@ fn as_many_lights_as_there_may_be() {
     }
 }
 
+/// Lavapipe leaves a shader's loops after 65,535 rounds in all: lights times the steps of their rays must not come near.
+#[test]
+fn many_lights_with_rays() {
+    let shot = Shot::sample("columns")
+        .size(32, 18)
+        .with("lights=4096 rsm=128");
+    both("4096 lights with rays", &shot);
+}
+
 #[test]
 fn maps_of_one_texel_and_of_odd_sizes() {
     for size in [1, 2, 3, 17] {

@@ -1,6 +1,6 @@
 //! needs: data/index, data/point_sender, data/vsgls_read, phase/direct, phase/reflect
-// Light to the eye from every sample: `direct` of the lights themselves, `vsgls` and `vpls` of one bounce. A dispatch a band
-// of samples.
+// Light to the eye from every sample: `direct` of the lights themselves, `vsgls` and `vpls` of one bounce. A dispatch for each
+// band of samples and each group of lights; sums wait in `waiting` for the next group, so that their order is that of the lights.
 
 override GLOSSY_RECEIVERS: bool = true;
 override GLOSSY_SENDERS: bool = true;
@@ -18,8 +18,10 @@ struct Params {
     first: u32,
     end: u32,
     nodes: u32,
-    // Direct lights, room for clusters, or texels.
+    // Direct lights, room for clusters, or texels; those of this dispatch.
     lights: u32,
+    first_light: u32,
+    end_light: u32,
 }
 
 struct Count {
@@ -40,6 +42,8 @@ struct Count {
 @group(0) @binding(9) var<uniform> clusters: Count;
 // Columns direct, indirect_diffuse, indirect_glossy.
 @group(0) @binding(10) var<storage, read_write> radiance_out: array<f32>;
+// Sums of the samples of this band over the lights so far.
+@group(0) @binding(11) var<storage, read_write> waiting: array<vec4<f32>>;
 
 fn receiver_at(i: u32) -> Receiver {
     let normal = receiver[params.count + i];
@@ -97,18 +101,38 @@ fn direct(
         return;
     }
     var sum = vec3(0.0);
+    if params.first_light > 0u {
+        sum = vec3(radiance_out[3u * i], radiance_out[3u * i + 1u], radiance_out[3u * i + 2u]);
+    }
     if triangle[i] != NO_TRIANGLE {
         let seen = receiver_at(i);
         let colors = colors_at(i);
         let facing = surface_geometric_normal(triangle[i], params.eye - seen.position);
-        for (var j = 0u; j < params.lights; j++) {
+        for (var j = params.first_light; j < params.end_light; j++) {
             sum += direct_radiance(params.nodes, params.lift, direct_light[j], seen, facing, colors);
         }
     }
     write(0u, i, sum);
 }
 
+// The sums over the lights before this dispatch.
+fn sums_before(i: u32) -> Sums {
+    if params.first_light == 0u {
+        return Sums();
+    }
+    let at = 3u * (i - params.first);
+    return Sums(waiting[at].xyz, waiting[at + 1u].xyz, waiting[at + 2u].xyz);
+}
+
+// Keeps the sums for the next dispatch, or makes the result of them after the last.
 fn write_indirect(i: u32, total: Sums) {
+    if params.end_light < params.lights {
+        let at = 3u * (i - params.first);
+        waiting[at] = vec4(total.diffuse, 0.0);
+        waiting[at + 1u] = vec4(total.near, 0.0);
+        waiting[at + 2u] = vec4(total.grazing, 0.0);
+        return;
+    }
     let colors = colors_at(i);
     write(1u, i, colors_diffuse(colors, total.diffuse));
     if GLOSSY_RECEIVERS {
@@ -125,7 +149,7 @@ fn vsgls(
     if i >= params.end {
         return;
     }
-    var total: Sums;
+    var total = sums_before(i);
     if triangle[i] != NO_TRIANGLE {
         let seen = receiver_at(i);
         let origin = origin_at(i, seen.position);
@@ -134,7 +158,7 @@ fn vsgls(
             surface = glossy_view_new(seen.view, seen.normal, seen.alpha);
         }
         let capacity = params.lights;
-        for (var j = 0u; j < clusters.value; j++) {
+        for (var j = params.first_light; j < min(params.end_light, clusters.value); j++) {
             var sums = reflect_diffuse(diffuse_vsgl_at(j), seen, surface);
             if GLOSSY_SENDERS {
                 sums = reflect_specular(sums, specular_vsgl_at(j, capacity), seen, surface);
@@ -163,11 +187,11 @@ fn vpls(
     if i >= params.end {
         return;
     }
-    var total: Sums;
+    var total = sums_before(i);
     if triangle[i] != NO_TRIANGLE {
         let seen = receiver_at(i);
         let origin = origin_at(i, seen.position);
-        for (var j = 0u; j < params.lights; j++) {
+        for (var j = params.first_light; j < params.end_light; j++) {
             let light = sender_at(j);
             if !light.lit {
                 continue;

@@ -23,6 +23,11 @@ const PAIRS_GPU: u64 = 1 << 30;
 const PAIRS_SOFTWARE: u64 = 1 << 23;
 /// What a pair costs with a ray, in pairs without.
 const RAY_COST: u64 = 8;
+/// Lights in one dispatch. Lavapipe leaves a shader's loops after 65,535 rounds in all, those of rays through the hierarchy
+/// included, without a word: so a ray may take a thousand.
+const LIGHTS_GPU: u32 = 1 << 16;
+const LIGHTS_SOFTWARE: u32 = 1 << 14;
+const LIGHTS_SOFTWARE_RAYS: u32 = 1 << 6;
 
 /// Twin of `Params` in `entry/shade.wgsl`.
 #[repr(C)]
@@ -35,7 +40,9 @@ struct Params {
     end: u32,
     nodes: u32,
     lights: u32,
-    padding: [u32; 3],
+    first_light: u32,
+    end_light: u32,
+    padding: u32,
 }
 
 /// Twin of `DirectLight` in `phase/direct.wgsl`.
@@ -91,6 +98,10 @@ pub(crate) struct Shading {
     bounce: Option<Bounce>,
     /// Samples of a band.
     band: u32,
+    /// Direct lights, and lights of a bounce, in one dispatch.
+    groups: [u32; 2],
+    /// Sums between dispatches.
+    waiting: Pooled,
 }
 
 /// The indirect part.
@@ -137,13 +148,18 @@ impl Shading {
             OcclusionMethod::None => 1,
             OcclusionMethod::Rays => RAY_COST,
         };
-        let pairs = if is_software(context.info()) {
-            PAIRS_SOFTWARE
-        } else {
-            PAIRS_GPU
-        };
+        let software = is_software(context.info());
+        let pairs = if software { PAIRS_SOFTWARE } else { PAIRS_GPU };
         let lights_all = bounce.as_ref().map_or(0, |b| u64::from(b.lights)) + lights.len() as u64;
-        let band = (pairs / (cost * lights_all.max(1))).clamp(1 << 12, u64::from(u32::MAX));
+        let band = (pairs / (cost * lights_all.max(1))).clamp(1 << 12, count.max(1 << 12));
+        let group = |rays: bool| match (software, rays) {
+            (false, _) => LIGHTS_GPU,
+            (true, false) => LIGHTS_SOFTWARE,
+            (true, true) => LIGHTS_SOFTWARE_RAYS,
+        };
+        let groups = [group(true), group(plan.occlusion == OcclusionMethod::Rays)];
+        let waits = bounce.as_ref().is_some_and(|b| b.lights > groups[1]);
+        let waiting = context.buffer("sums of a band", if waits { 48 * band } else { 48 })?;
         Ok(Self {
             radiance,
             params: Params {
@@ -154,12 +170,16 @@ impl Shading {
                 end: 0,
                 nodes: inputs.scene.len("node") as u32,
                 lights: lights.len() as u32,
-                padding: [0; 3],
+                first_light: 0,
+                end_light: 0,
+                padding: 0,
             },
             direct: context.kernel("entry/shade", "direct", &direct_constants(plan))?,
             direct_lights,
             bounce,
             band: band as u32,
+            groups,
+            waiting,
         })
     }
 
@@ -197,8 +217,11 @@ impl Shading {
             ("grazing", gbuffer.bind("grazing")),
             ("direct_light", Binding::Buffer(&self.direct_lights)),
             ("radiance_out", self.radiance.bind("direct")),
+            ("waiting", Binding::Buffer(&self.waiting)),
         ];
-        recorder.dispatch(&self.direct, &params, &bound, samples)?;
+        for params in by_lights(params, self.groups[0]) {
+            recorder.dispatch(&self.direct, &params, &bound, samples)?;
+        }
         let Some(bounce) = &self.bounce else {
             return Ok(());
         };
@@ -227,13 +250,26 @@ impl Shading {
             lights: bounce.lights,
             ..params
         };
-        recorder.dispatch(&bounce.kernel, &params, &bound, samples)
+        for params in by_lights(params, self.groups[1]) {
+            recorder.dispatch(&bounce.kernel, &params, &bound, samples)?;
+        }
+        Ok(())
     }
 
     /// The result, once all bands are recorded.
     pub(crate) fn finish(self) -> WgpuRes<Radiance> {
         self.radiance
     }
+}
+
+/// The parameters of each group of lights: one at least, which writes the result.
+fn by_lights(params: Params, group: u32) -> impl Iterator<Item = Params> {
+    let groups = params.lights.div_ceil(group).max(1);
+    (0..groups).map(move |i| Params {
+        first_light: i * group,
+        end_light: ((i + 1).saturating_mul(group)).min(params.lights),
+        ..params
+    })
 }
 
 impl Bounce {
@@ -338,7 +374,9 @@ mod tests {
                 first,
                 end,
                 nodes,
-                lights
+                lights,
+                first_light,
+                end_light
             }
         );
         twins!(
