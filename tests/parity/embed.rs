@@ -4,22 +4,21 @@
 mod host;
 #[path = "../../vsgl-wgpu/examples/embed/room.rs"]
 mod room;
+#[path = "../../vsgl-wgpu/examples/embed/seen.rs"]
+mod seen;
+
+mod import;
+mod refused;
 
 use host::Host;
 use std::sync::{Mutex, MutexGuard, PoisonError};
-use vsgl_core::Error;
 use vsgl_core::backend::Backend;
-use vsgl_core::data::{GBuffer, NO_TRIANGLE, Rsm, SceneData};
-use vsgl_core::glam::Mat4;
+use vsgl_core::data::SceneData;
 use vsgl_core::plan::Plan;
 use vsgl_core::render::{View, render};
-use vsgl_core::scene::Material;
 use vsgl_core::settings::Settings;
 use vsgl_tests::gpu::any;
-use vsgl_tests::render::Shot;
-use vsgl_wgpu::interop::{
-    Bounce, Colors, Export, HostGBuffer, HostMap, Materials, Normals, Place, host_plan,
-};
+use vsgl_wgpu::interop::{Bounce, Export, host_plan};
 use vsgl_wgpu::wgpu::{self, TextureFormat as Format, TextureUsages as Usages};
 use vsgl_wgpu::{Context, WgpuBackend, WgpuOptions};
 
@@ -92,6 +91,7 @@ fn the_light_is_that_of_the_backend() {
     for words in [
         "occlusion=none method=vpl",
         "occlusion=none",
+        "occlusion=none clustering=filtered",
         "occlusion=rays",
     ] {
         let plan = plan(words);
@@ -123,6 +123,8 @@ fn the_light_is_that_of_the_backend() {
 /// The host draws by a rasteriser, and keeps normals in 16 bits and depth by another matrix: pixels along edges show another
 /// surface, texels at the borders of the map too, and where clusters differ by a texel, their light goes elsewhere a little.
 const LIMIT: (f64, f64) = (0.005, 0.01);
+/// The host's map is the mirror image of ours, in which lights are drawn from other texels: as far as two draws are apart.
+const DRAWN: (f64, f64) = (0.05, 0.25);
 
 #[test]
 fn a_steady_frame_makes_no_buffer_and_no_other_picture() {
@@ -213,230 +215,6 @@ fn empty(host: &Host, (width, height): (u32, u32), format: Format) -> wgpu::Text
         view_formats: &[],
     });
     texture.create_view(&wgpu::TextureViewDescriptor::default())
-}
-
-fn biased(normals: &[[f32; 4]]) -> Vec<[f32; 4]> {
-    normals.iter().map(|n| n.map(|c| 0.5 * c + 0.5)).collect()
-}
-
-/// Relative to the largest number of an entry, which counts as `least` if it is smaller.
-fn near(found: &[[f32; 4]], expected: &[[f32; 4]], lanes: usize, limit: f32, least: f32) {
-    assert_eq!(found.len(), expected.len());
-    for (i, (f, e)) in found.iter().zip(expected).enumerate() {
-        let size = e[..lanes].iter().fold(least, |m, c| m.max(c.abs()));
-        for lane in 0..lanes {
-            assert!(
-                (f[lane] - e[lane]).abs() <= limit * size,
-                "{i}: {f:?} for {e:?}"
-            );
-        }
-    }
-}
-
-/// Textures that hold what our own phases found come back as it.
-#[test]
-fn what_is_imported_is_what_the_textures_hold() {
-    let Some((_one, host, backend)) = host() else {
-        return;
-    };
-    let vsgl = backend.context();
-    let mut shot = Shot::sample("cornell").size(40, 24).with("rsm=16");
-    for material in &mut shot.scene.materials {
-        *material = Material::dielectric("", material.base_color, 0.5);
-    }
-    let frame = shot.frame();
-    let own: &GBuffer = &frame.gbuffer;
-    let (size, eye) = ((40, 24), shot.view.camera.eye);
-    let place: Vec<[f32; 4]> = own
-        .triangle
-        .iter()
-        .zip(&own.position)
-        .map(|(&id, p)| [p[0], p[1], p[2], f32::from(u8::from(id != NO_TRIANGLE))])
-        .collect();
-    let (place, normals, colors) = (
-        filled(&host, size, &place),
-        filled(&host, size, &biased(&own.normal)),
-        filled(&host, size, &own.diffuse),
-    );
-    let materials = Materials::Constant {
-        roughness: 0.5,
-        metallic: 0.0,
-    };
-    let normals = Normals {
-        texture: &normals,
-        biased: true,
-    };
-    let from = HostGBuffer {
-        place: Place::Position(&place),
-        normals,
-        base_color: &colors,
-        materials,
-        inverse_view_projection: Mat4::IDENTITY,
-        eye,
-        dielectric_f0: own.diffuse[0][3],
-    };
-    let plan = shot.plan();
-    let scene = vsgl.scene(&SceneData::new(&shot.scene)).expect("room");
-    let mut encoder = host.device.create_command_encoder(&Default::default());
-    let made = vsgl
-        .import_gbuffer(&mut encoder, &from, Some(&scene), &plan)
-        .expect("it records");
-    host.queue.submit([encoder.finish()]);
-    let found: GBuffer = backend.download(&made).expect("it is there");
-    assert_eq!(found.position.len(), 40 * 24);
-    // On the scene's triangles again.
-    near(&found.position, &own.position, 3, 1e-5, 1.0);
-    // They were stored as 0 ..= 1 and rounded for it.
-    near(&found.normal, &own.normal, 3, 1e-6, 1e-6);
-    near(&found.diffuse, &own.diffuse, 4, 0.0, 1e-6);
-    near(&found.specular, &own.specular, 4, 1e-6, 1e-6);
-    // Where shadow rays start: the same triangle, or its neighbour along an edge.
-    let others = found
-        .triangle
-        .iter()
-        .zip(&own.triangle)
-        .filter(|(a, b)| a != b)
-        .count();
-    assert!(others <= 4, "{others} of 960 triangles differ");
-
-    // Flux as it is stored; the same solid angles would need the same matrix.
-    let own: &Rsm = frame.rsm.as_ref().expect("maps");
-    let size = (16, 16);
-    let place: Vec<[f32; 4]> = own
-        .triangle
-        .iter()
-        .zip(&own.position)
-        .map(|(&id, p)| [p[0], p[1], p[2], f32::from(u8::from(id != NO_TRIANGLE))])
-        .collect();
-    let (place, normals, colors) = (
-        filled(&host, size, &place),
-        filled(&host, size, &own.normal),
-        filled(&host, size, &own.diffuse),
-    );
-    let map = HostMap {
-        light: &shot.lights[0],
-        place: Place::Position(&place),
-        normals: Normals {
-            texture: &normals,
-            biased: false,
-        },
-        colors: Colors::Flux(&colors),
-        materials,
-        inverse_view_projection: map_to_world(&own.map[0]),
-        dielectric_f0: own.diffuse[0][3],
-    };
-    let mut encoder = host.device.create_command_encoder(&Default::default());
-    let made = vsgl
-        .import_rsm(&mut encoder, &[map], Some(&scene), &plan)
-        .expect("it records");
-    host.queue.submit([encoder.finish()]);
-    let found: Rsm = backend.download(&made).expect("it is there");
-    assert!(found.map == own.map);
-    near(&found.diffuse, &own.diffuse, 3, 0.0, 1e-6);
-    near(&found.normal, &own.normal, 3, 1e-6, 1e-6);
-    // The area of a texel's footprint too: solid angle and cosine by another way.
-    near(&found.position, &own.position, 3, 1e-5, 1.0);
-    let areas = |position: &[[f32; 4]]| position.iter().map(|p| [p[3]; 4]).collect::<Vec<_>>();
-    near(
-        &areas(&found.position),
-        &areas(&own.position),
-        1,
-        1e-4,
-        1e-6,
-    );
-}
-
-/// From the clip space of a map as our own phase draws it to the world.
-fn map_to_world(map: &vsgl_core::data::MapRecord) -> Mat4 {
-    use vsgl_core::glam::Vec3;
-    let side = |v: [f32; 3]| (Vec3::from_array(v) * map.tan_half_fov).extend(0.0);
-    // A clip depth of 1 − 1/t at the distance t along the axis.
-    let axis = Vec3::from_array(map.axis);
-    let eye = Vec3::from_array(map.position);
-    Mat4::from_cols(
-        side(map.right),
-        side(map.up),
-        (-eye).extend(-1.0),
-        (axis + eye).extend(1.0),
-    )
-}
-
-#[test]
-fn maps_of_base_colours_are_those_of_our_own_rays() {
-    let Some((_one, host, backend)) = host() else {
-        return;
-    };
-    let vsgl = backend.context();
-    let plan = plan("");
-    host.frame(vsgl, None, &self::plan("occlusion=none lights=8"))
-        .expect("a frame");
-    let lamp = room::lamp();
-    let scene = vsgl.scene(&SceneData::new(&room::scene())).expect("room");
-    let mut encoder = host.device.create_command_encoder(&Default::default());
-    let imported = vsgl.import_rsm(&mut encoder, &[host.map(&lamp)], Some(&scene), &plan);
-    let traced = vsgl.trace_rsm(&mut encoder, &scene, &[lamp], &plan);
-    host.queue.submit([encoder.finish()]);
-    let [found, own]: [Rsm; 2] = [imported, traced].map(|made| {
-        backend
-            .download(&made.expect("it records"))
-            .expect("it is there")
-    });
-    assert_eq!((found.size, found.maps), (own.size, own.maps));
-    // The host's map is the mirror image of ours: its columns run the other way.
-    let mirrored = |i: usize| i + MAP as usize - 1 - 2 * (i % MAP as usize);
-    let same: Vec<usize> = (0..own.triangle.len())
-        .filter(|&i| own.triangle[i] != NO_TRIANGLE)
-        .filter(|&i| found.triangle[mirrored(i)] == own.triangle[i])
-        .collect();
-    let lit = own.triangle.iter().filter(|&&id| id != NO_TRIANGLE).count();
-    assert!(
-        lit > 500 && same.len() * 100 > lit * 98,
-        "{} of {lit}",
-        same.len()
-    );
-    let pick = |column: &[[f32; 4]]| same.iter().map(|&i| column[i]).collect::<Vec<_>>();
-    let pick_found = |column: &[[f32; 4]]| {
-        same.iter()
-            .map(|&i| column[mirrored(i)])
-            .collect::<Vec<_>>()
-    };
-    // Normals of 11 bits, depth and directions by the inverse of a matrix in f32, 1e-5 off, which the cone's falloff takes
-    // many times; flux as against a thousandth of a watt, since at the cone's border it is nothing.
-    near(
-        &pick_found(&found.position),
-        &pick(&own.position),
-        3,
-        1e-4,
-        1.0,
-    );
-    near(
-        &pick_found(&found.normal),
-        &pick(&own.normal),
-        3,
-        1e-3,
-        1e-6,
-    );
-    near(
-        &pick_found(&found.diffuse),
-        &pick(&own.diffuse),
-        3,
-        5e-4,
-        1e-3,
-    );
-    near(
-        &pick_found(&found.specular),
-        &pick(&own.specular),
-        4,
-        5e-4,
-        1e-3,
-    );
-    near(
-        &pick_found(&found.grazing),
-        &pick(&own.grazing),
-        4,
-        2e-3,
-        1e-3,
-    );
 }
 
 #[test]
@@ -534,94 +312,4 @@ fn half(bits: u16) -> f32 {
         _ => (1024.0 + mantissa) * 2f32.powi(exponent - 25),
     };
     if bits >> 15 == 1 { -size } else { size }
-}
-
-#[test]
-fn what_does_not_fit_is_refused_in_words() {
-    let Some((_one, host, backend)) = host() else {
-        return;
-    };
-    let vsgl = backend.context();
-    let (with_rays, plan) = (plan("occlusion=rays"), plan("occlusion=none"));
-    let refused = |error: Error, words: [&str; 2]| {
-        let message = error.to_string();
-        assert!(matches!(error, Error::Setting { .. }), "{message}");
-        assert!(words.iter().all(|w| message.contains(w)), "{message}");
-    };
-    let lamp = room::lamp();
-    let mut encoder = host.device.create_command_encoder(&Default::default());
-    let gbuffer = vsgl
-        .import_gbuffer(&mut encoder, &host.gbuffer(), None, &plan)
-        .expect("it records");
-    let rsm = vsgl
-        .import_rsm(&mut encoder, &[host.map(&lamp)], None, &plan)
-        .expect("it records");
-    let bounce = Bounce {
-        gbuffer: &gbuffer,
-        rsm: &rsm,
-        scene: None,
-        eye: room::camera().eye,
-    };
-    let blind = vsgl.indirect(&mut encoder, &bounce, &with_rays);
-    refused(
-        blind.expect_err("no scene"),
-        ["occlusion", "give the scene"],
-    );
-    let dark = host_plan(&Settings::default(), 0, true).expect("a plan");
-    let unlit = vsgl.indirect(&mut encoder, &bounce, &dark);
-    refused(unlit.expect_err("no bounce"), ["plan", "bounce"]);
-
-    let mut import = |from: HostGBuffer<'_>| {
-        let made = vsgl.import_gbuffer(&mut encoder, &from, None, &plan);
-        made.expect_err("it does not fit")
-    };
-    let ids = empty(&host, SIZE, Format::R32Uint);
-    let colors = HostGBuffer {
-        base_color: &ids,
-        ..host.gbuffer()
-    };
-    refused(import(colors), ["colors", "R32Uint"]);
-    let small = empty(&host, (8, 8), Format::Rgba8Unorm);
-    let colors = HostGBuffer {
-        base_color: &small,
-        ..host.gbuffer()
-    };
-    refused(import(colors), ["8x8", "96x54"]);
-    let texture = host.gbuffer().base_color;
-    let channels = HostGBuffer {
-        materials: Materials::Texture {
-            texture,
-            roughness_channel: 1,
-            metallic_channel: 4,
-        },
-        ..host.gbuffer()
-    };
-    refused(import(channels), ["materials", "channels 1 and 4"]);
-
-    let mut import = |map: HostMap<'_>| {
-        let made = vsgl.import_rsm(&mut encoder, &[map], None, &plan);
-        made.expect_err("it does not fit")
-    };
-    let elsewhere = HostMap {
-        inverse_view_projection: host.gbuffer().inverse_view_projection,
-        ..host.map(&lamp)
-    };
-    refused(
-        import(elsewhere),
-        ["inverse_view_projection", "perspective"],
-    );
-    let flat = HostMap {
-        inverse_view_projection: Mat4::IDENTITY,
-        ..host.map(&lamp)
-    };
-    refused(import(flat), ["inverse_view_projection", "perspective"]);
-    let seen = host.gbuffer();
-    let wide = HostMap {
-        place: seen.place,
-        normals: seen.normals,
-        colors: Colors::Base(seen.base_color),
-        materials: seen.materials,
-        ..host.map(&lamp)
-    };
-    refused(import(wide), ["rsm", "square"]);
 }

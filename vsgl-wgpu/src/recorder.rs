@@ -50,8 +50,6 @@ impl Uniforms {
 pub(crate) enum Binding<'a> {
     /// A whole buffer.
     Buffer(&'a wgpu::Buffer),
-    /// So many bytes of a buffer from an offset on, a multiple of 256.
-    Range(&'a wgpu::Buffer, u64, u64),
     /// A texture.
     Texture(&'a wgpu::TextureView),
 }
@@ -201,13 +199,6 @@ impl<'a> Recorder<'a> {
                 };
                 match what {
                     Binding::Buffer(buffer) => buffer.as_entire_binding(),
-                    Binding::Range(buffer, offset, size) => {
-                        wgpu::BindingResource::Buffer(wgpu::BufferBinding {
-                            buffer,
-                            offset: *offset,
-                            size: wgpu::BufferSize::new(*size),
-                        })
-                    }
                     Binding::Texture(view) => wgpu::BindingResource::TextureView(view),
                 }
             };

@@ -1,36 +1,20 @@
 //! The host's renderer.
 
 use super::room;
+use super::seen::{CORNER, Seen, corners, filled, pipeline, projection, texture};
 use std::error::Error;
 use vsgl_core::data::SceneData;
-use vsgl_core::glam::{Mat4, Vec3};
 use vsgl_core::math::vec::orthonormal_basis;
 use vsgl_core::plan::Plan;
 use vsgl_core::scene::Light;
-use vsgl_wgpu::interop::{Bounce, Colors, Export, HostGBuffer, HostMap, Materials, Normals, Place};
+use vsgl_wgpu::interop::{Bounce, Colors, Export, HostGBuffer, HostMap};
 use vsgl_wgpu::{Context, WgpuRes, wgpu};
 use wgpu::TextureFormat as Format;
 
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
-const DEPTH: Format = Format::Depth32Float;
-const NORMAL: Format = Format::Rgba16Float;
-const BASE: Format = Format::Rgba8Unorm;
 const INDIRECT: Format = Format::Rgba32Float;
 const PICTURE: Format = Format::Rgba8UnormSrgb;
-
-/// What is seen from one point: textures that are drawn and read.
-struct Seen {
-    depth: wgpu::TextureView,
-    normal: wgpu::TextureView,
-    base: wgpu::TextureView,
-    material: wgpu::TextureView,
-    pipeline: wgpu::RenderPipeline,
-    group: wgpu::BindGroup,
-    /// Depth where there is nothing.
-    background: f32,
-    to_world: Mat4,
-}
 
 pub(crate) struct Host {
     pub(crate) device: wgpu::Device,
@@ -291,193 +275,4 @@ impl Host {
         let used = (self.width * bytes) as usize;
         Ok(rows.flat_map(|row| row[..used].to_vec()).collect())
     }
-}
-
-impl Seen {
-    fn new(
-        device: &wgpu::Device,
-        queue: &wgpu::Queue,
-        module: &wgpu::ShaderModule,
-        size: (u32, u32),
-        view_projection: Mat4,
-        reversed: bool,
-    ) -> Self {
-        let attributes =
-            wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Unorm8x4, 3 => Unorm8x4];
-        let corner = wgpu::VertexBufferLayout {
-            array_stride: CORNER,
-            step_mode: wgpu::VertexStepMode::Vertex,
-            attributes: &attributes,
-        };
-        let compare = if reversed {
-            wgpu::CompareFunction::Greater
-        } else {
-            wgpu::CompareFunction::Less
-        };
-        let pipeline = pipeline(
-            device,
-            module,
-            ["draw_corner", "draw"],
-            &[Some(corner)],
-            &[NORMAL, BASE, BASE],
-            Some(compare),
-        );
-        let bytes = view_projection.to_cols_array();
-        let bytes = bytemuck::cast_slice(&bytes);
-        let uniforms = filled(device, queue, wgpu::BufferUsages::UNIFORM, bytes);
-        let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: None,
-            layout: &pipeline.get_bind_group_layout(0),
-            entries: &[wgpu::BindGroupEntry {
-                binding: 0,
-                resource: uniforms.as_entire_binding(),
-            }],
-        });
-        let drawn = |format| texture(device, size, format, wgpu::TextureUsages::RENDER_ATTACHMENT);
-        Self {
-            depth: drawn(DEPTH),
-            normal: drawn(NORMAL),
-            base: drawn(BASE),
-            material: drawn(BASE),
-            pipeline,
-            group,
-            background: if reversed { 0.0 } else { 1.0 },
-            to_world: view_projection.inverse(),
-        }
-    }
-
-    fn place(&self) -> Place<'_> {
-        Place::Depth {
-            texture: &self.depth,
-            background: self.background,
-        }
-    }
-
-    fn normals(&self) -> Normals<'_> {
-        Normals {
-            texture: &self.normal,
-            biased: false,
-        }
-    }
-
-    fn materials(&self) -> Materials<'_> {
-        Materials::Texture {
-            texture: &self.material,
-            roughness_channel: 1,
-            metallic_channel: 2,
-        }
-    }
-}
-
-/// From the world to the clip space of a view, whose depth is `a × distance + b` before the division by the distance.
-fn projection(
-    eye: Vec3,
-    forward: Vec3,
-    up: Vec3,
-    (tan_half_fov, aspect): (f32, f32),
-    (a, b): (f32, f32),
-) -> Mat4 {
-    let row = |v: Vec3, add: f32| v.extend(add - v.dot(eye));
-    let rows = [
-        row(forward.cross(up) / (tan_half_fov * aspect), 0.0),
-        row(up / tan_half_fov, 0.0),
-        row(forward * a, b),
-        row(forward, 0.0),
-    ];
-    Mat4::from_cols(rows[0], rows[1], rows[2], rows[3]).transpose()
-}
-
-/// Bytes of a corner.
-const CORNER: u64 = 32;
-
-/// Position, normal, base colour and material of each corner of each triangle.
-fn corners() -> Vec<u8> {
-    let mut bytes = Vec::new();
-    for quad in room::quads() {
-        for corner in [0, 1, 2, 0, 2, 3] {
-            let place = quad.corners[corner].to_array();
-            bytes.extend_from_slice(bytemuck::cast_slice(&place));
-            bytes.extend_from_slice(bytemuck::cast_slice(&quad.normal().to_array()));
-            bytes.extend(quad.base);
-            bytes.extend([255, 0, quad.roughness, quad.metallic, 0]);
-        }
-    }
-    bytes
-}
-
-fn filled(
-    device: &wgpu::Device,
-    queue: &wgpu::Queue,
-    usage: wgpu::BufferUsages,
-    bytes: &[u8],
-) -> wgpu::Buffer {
-    let buffer = device.create_buffer(&wgpu::BufferDescriptor {
-        label: None,
-        size: bytes.len() as u64,
-        usage: usage | wgpu::BufferUsages::COPY_DST,
-        mapped_at_creation: false,
-    });
-    queue.write_buffer(&buffer, 0, bytes);
-    buffer
-}
-
-fn texture(
-    device: &wgpu::Device,
-    (width, height): (u32, u32),
-    format: Format,
-    usage: wgpu::TextureUsages,
-) -> wgpu::TextureView {
-    let texture = device.create_texture(&wgpu::TextureDescriptor {
-        label: None,
-        size: wgpu::Extent3d {
-            width,
-            height,
-            depth_or_array_layers: 1,
-        },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format,
-        usage: usage | wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_SRC,
-        view_formats: &[],
-    });
-    texture.create_view(&wgpu::TextureViewDescriptor::default())
-}
-
-fn pipeline(
-    device: &wgpu::Device,
-    module: &wgpu::ShaderModule,
-    [vertex, fragment]: [&str; 2],
-    buffers: &[Option<wgpu::VertexBufferLayout<'_>>],
-    targets: &[Format],
-    depth: Option<wgpu::CompareFunction>,
-) -> wgpu::RenderPipeline {
-    let targets: Vec<_> = targets.iter().map(|&format| Some(format.into())).collect();
-    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: None,
-        layout: None,
-        vertex: wgpu::VertexState {
-            module,
-            entry_point: Some(vertex),
-            compilation_options: Default::default(),
-            buffers,
-        },
-        primitive: wgpu::PrimitiveState::default(),
-        depth_stencil: depth.map(|compare| wgpu::DepthStencilState {
-            format: DEPTH,
-            depth_write_enabled: Some(true),
-            depth_compare: Some(compare),
-            stencil: wgpu::StencilState::default(),
-            bias: wgpu::DepthBiasState::default(),
-        }),
-        multisample: wgpu::MultisampleState::default(),
-        fragment: Some(wgpu::FragmentState {
-            module,
-            entry_point: Some(fragment),
-            compilation_options: Default::default(),
-            targets: &targets,
-        }),
-        multiview_mask: None,
-        cache: None,
-    })
 }

@@ -8,6 +8,7 @@
 
 mod host;
 mod room;
+mod seen;
 
 use std::error::Error;
 use std::path::Path;
