@@ -36,6 +36,9 @@ struct Params {
 
 var<workgroup> halved: array<Sum, CLUSTER_BLOCK>;
 
+// What a workgroup works on, looked up by its first invocation.
+var<workgroup> own: Cluster;
+
 // The cluster that a block belongs to.
 fn cluster_of(block_number: u32) -> u32 {
     var low = 0u;
@@ -59,7 +62,10 @@ fn block_sums(
     @builtin(local_invocation_index) local: u32,
 ) {
     let number = group_index(group, groups);
-    let own = cluster[cluster_of(number)];
+    if local == 0u {
+        own = cluster[cluster_of(number)];
+    }
+    workgroupBarrier();
     let first = (number - own.block) * CLUSTER_BLOCK;
     // The grid may hold more than there are.
     let length = own.length - min(own.length, first);
@@ -89,8 +95,11 @@ fn cluster_sums(
 ) {
     let number = group_index(group, groups);
     var blocks = 0u;
+    if local == 0u {
+        own = cluster[number];
+    }
+    workgroupBarrier();
     if number < clusters[0] {
-        let own = cluster[number];
         blocks = blocks_of(own.length, CLUSTER_BLOCK);
         if local < blocks {
             var merged = block[own.block + local];
@@ -100,7 +109,7 @@ fn cluster_sums(
             lanes[local] = merged;
         }
         if local == 0u {
-            drawn_out[number] = draw(own, blocks, pdf_unit(number * GOLDEN_TURN));
+            drawn_out[number] = draw(blocks, pdf_unit(number * GOLDEN_TURN));
         }
     }
     workgroupBarrier();
@@ -116,7 +125,7 @@ fn cluster_sums(
 }
 
 // Twin of `draw` and `pick` in `vsgl-core/src/phase/cluster.rs`.
-fn draw(own: Cluster, blocks: u32, u: f32) -> u32 {
+fn draw(blocks: u32, u: f32) -> u32 {
     var total = 0.0;
     for (var b = 0u; b < blocks; b += 1u) {
         total += block_weight(own.block + b);

@@ -22,17 +22,17 @@ fn begins(
 ) {
     let block = group_index(group, groups);
     let i = block * SCAN + local;
-    let scanned = scan_group(local, begins_at(i));
+    let scanned = scan_flags(local, begins_at(i));
     if local == 0u && block * SCAN < state.texels {
         count[block] = scanned.total;
     }
 }
 
-fn begins_at(i: u32) -> u32 {
+fn begins_at(i: u32) -> bool {
     if i < state.texels {
-        return select(0u, 1u, mark[i] > 0u);
+        return mark[i] > 0u;
     }
-    return 0u;
+    return false;
 }
 
 // One workgroup: the blocks' running sum in place of their counts, and the number of clusters.
@@ -67,12 +67,12 @@ fn labels(
     let block = group_index(group, groups);
     let i = block * SCAN + local;
     let begins = begins_at(i);
-    let scanned = scan_group(local, begins);
+    let scanned = scan_flags(local, begins);
     if i < state.lit {
         // Of the range that began last, here or before.
-        let number = count[block] + scanned.before + begins - 1u;
+        let number = count[block] + scanned.before + select(0u, 1u, begins) - 1u;
         label[list[i]] = number;
-        if begins > 0u {
+        if begins {
             cluster[number] = Cluster(i, node[mark[i] - 1u].length, 0u);
         }
     }

@@ -37,7 +37,7 @@ fn places(
 ) {
     let block = group_index(group, groups);
     let i = block * SCAN + local;
-    var lit = 0u;
+    var is_lit = false;
     if i < params.texels {
         var weight = vec_luminance(texel[2u * params.texels + i].xyz);
         if GLOSSY {
@@ -46,9 +46,9 @@ fn places(
         place[i] = vec4(texel[i].xyz, weight);
         label[i] = 0xffffffffu;
         mark[i] = 0u;
-        lit = select(0u, 1u, weight > 0.0);
+        is_lit = weight > 0.0;
     }
-    let scanned = scan_group(local, lit);
+    let scanned = scan_flags(local, is_lit);
     if local == 0u && block * SCAN < params.texels {
         count[block] = scanned.total;
     }
@@ -85,14 +85,14 @@ fn compact(
 ) {
     let block = group_index(group, groups);
     let i = block * SCAN + local;
-    var lit = 0u;
+    var is_lit = false;
     if i < params.texels {
-        lit = select(0u, 1u, place[i].w > 0.0);
+        is_lit = place[i].w > 0.0;
     }
-    let scanned = scan_group(local, lit);
+    let scanned = scan_flags(local, is_lit);
     if i < params.texels {
         let at = count[block] + scanned.before;
-        if lit > 0u {
+        if is_lit {
             list[at] = i;
         }
         if i % params.map_texels == 0u {

@@ -30,6 +30,22 @@ fn split_of(slot: u32) -> Split {
     return split[low];
 }
 
+// What a workgroup works on, looked up by its first invocation.
+var<workgroup> own: Split;
+var<workgroup> parent: Node;
+
+fn look_up(slot: u32, local: u32) {
+    if local == 0u && slot < state.slots {
+        own = split_of(slot);
+        let from_node = node[own.node];
+        parent.start = from_node.start;
+        parent.length = from_node.length;
+        parent.axis = from_node.axis;
+        parent.threshold = from_node.threshold;
+    }
+    workgroupBarrier();
+}
+
 fn feature(index: u32, axis: u32) -> f32 {
     if axis < 4u {
         return place[index][axis];
@@ -45,16 +61,13 @@ fn halves(
     @builtin(local_invocation_index) local: u32,
 ) {
     let slot = group_index(group, groups);
-    var first = 0u;
-    if slot < state.slots {
-        let own = split_of(slot);
-        let from_node = node[own.node];
-        let i = (slot - own.slot) * PARTITION_BLOCK + local;
-        if i < from_node.length && feature(list[from_node.start + i], from_node.axis) <= from_node.threshold {
-            first = 1u;
-        }
+    look_up(slot, local);
+    var first = false;
+    let i = (slot - own.slot) * PARTITION_BLOCK + local;
+    if slot < state.slots && i < parent.length {
+        first = feature(list[parent.start + i], parent.axis) <= parent.threshold;
     }
-    let scanned = scan_group(local, first);
+    let scanned = scan_flags(local, first);
     if local == 0u && slot < state.slots {
         count[slot] = scanned.total;
     }
@@ -68,17 +81,12 @@ fn scatter(
 ) {
     let slot = group_index(group, groups);
     let inside = slot < state.slots;
-    var own = Split();
-    var start = 0u;
-    var length = 0u;
+    look_up(slot, local);
+    let start = parent.start;
+    let length = parent.length;
     var before = 0u;
     var all = 0u;
-    var index = 0u;
-    var first = 0u;
     if inside {
-        own = split_of(slot);
-        start = node[own.node].start;
-        length = node[own.node].length;
         let blocks = blocks_of(length, PARTITION_BLOCK);
         for (var b = local; b < blocks; b += PARTITION_BLOCK) {
             let here = count[own.slot + b];
@@ -88,15 +96,17 @@ fn scatter(
     }
     // Place in the range.
     let i = (slot - own.slot) * PARTITION_BLOCK + local;
+    var index = 0u;
+    var first = false;
     if inside && i < length {
         index = list[start + i];
-        first = select(0u, 1u, feature(index, node[own.node].axis) <= node[own.node].threshold);
+        first = feature(index, parent.axis) <= parent.threshold;
     }
-    let firsts = scan_group(local, all).total;
-    let passed = scan_group(local, before).total;
-    let front = passed + scan_group(local, first).before;
+    let totals = scan_totals(local, vec2(all, before));
+    let firsts = totals.x;
+    let front = totals.y + scan_flags(local, first).before;
     if inside && i < length {
-        spare[start + select(firsts + (i - front), front, first > 0u)] = index;
+        spare[start + select(firsts + (i - front), front, first)] = index;
     }
     if inside && slot == own.slot && local == 0u {
         // All on one side: never to be tried again.
@@ -114,6 +124,32 @@ fn scatter(
 const HALF: u32 = PARTITION_BLOCK / 2u;
 var<workgroup> halved: array<Features, HALF>;
 
+// Texels of the block of a slot: the blocks of the first child, then those of the second.
+struct Range {
+    start: u32,
+    length: u32,
+}
+var<workgroup> part: Range;
+
+fn range_of(slot: u32) -> Range {
+    if slot >= state.slots {
+        return Range(0u, 0u);
+    }
+    let from_split = split_of(slot);
+    var child = from_split.child;
+    var b = slot - from_split.slot;
+    let blocks = blocks_of(node[child].length, PARTITION_BLOCK);
+    if b >= blocks {
+        if ROOTS {
+            return Range(0u, 0u);
+        }
+        b -= blocks;
+        child += 1u;
+    }
+    let passed = min(b * PARTITION_BLOCK, node[child].length);
+    return Range(node[child].start + passed, min(node[child].length - passed, PARTITION_BLOCK));
+}
+
 fn features_at(index: u32) -> Features {
     return features_texel(place[index], texel[state.texels + index].xyz);
 }
@@ -126,34 +162,20 @@ fn features(
     @builtin(local_invocation_index) local: u32,
 ) {
     let slot = group_index(group, groups);
-    // Texels of the block.
-    var length = 0u;
-    if slot < state.slots {
-        let own = split_of(slot);
-        var b = slot - own.slot;
-        var start = node[own.child].start;
-        length = node[own.child].length;
-        let blocks = blocks_of(length, PARTITION_BLOCK);
-        if b >= blocks {
-            b -= blocks;
-            length = 0u;
-            if !ROOTS {
-                start = node[own.child + 1u].start;
-                length = node[own.child + 1u].length;
-            }
+    if local == 0u {
+        part = range_of(slot);
+    }
+    workgroupBarrier();
+    let start = part.start;
+    let length = part.length;
+    if local < length {
+        let index = moved(start + local);
+        var sum = features_at(index);
+        if local + HALF < length {
+            let other = moved(start + local + HALF);
+            sum = features_merge(sum, features_at(other));
         }
-        length = length - min(length, b * PARTITION_BLOCK);
-        length = min(length, PARTITION_BLOCK);
-        start += b * PARTITION_BLOCK;
-        if local < length {
-            let index = moved(start + local);
-            var sum = features_at(index);
-            if local + HALF < length {
-                let other = moved(start + local + HALF);
-                sum = features_merge(sum, features_at(other));
-            }
-            halved[local] = sum;
-        }
+        halved[local] = sum;
     }
     workgroupBarrier();
     for (var half = HALF / 2u; half > 0u; half /= 2u) {
@@ -190,12 +212,12 @@ fn nodes(
     let side = select(item % 2u, 0u, ROOTS);
     var blocks = 0u;
     if k < state.open {
-        let own = split[k];
-        var slot = own.slot;
+        let from_split = split[k];
+        var slot = from_split.slot;
         if side > 0u {
-            slot += blocks_of(node[own.child].length, PARTITION_BLOCK);
+            slot += blocks_of(node[from_split.child].length, PARTITION_BLOCK);
         }
-        blocks = blocks_of(node[own.child + side].length, PARTITION_BLOCK);
+        blocks = blocks_of(node[from_split.child + side].length, PARTITION_BLOCK);
         if local < blocks {
             var sum = block[slot + local];
             for (var b = local + PARTITION_LANES; b < blocks; b += PARTITION_LANES) {
@@ -212,7 +234,7 @@ fn nodes(
         workgroupBarrier();
     }
     if local == 0u && k < state.open {
-        let own = split[k];
+        let from_split = split[k];
         var above = F32_MAX;
         var scale = 1.0;
         if ROOTS {
@@ -220,14 +242,14 @@ fn nodes(
                 scale = features_scale(lanes[0]);
             }
         } else {
-            above = node[own.node].rank;
-            scale = node[own.node].scale;
+            above = node[from_split.node].rank;
+            scale = node[from_split.node].scale;
         }
         var at = Statistics();
         if blocks > 0u {
             at = statistics_new(lanes[0], scale);
         }
-        let child = own.child + side;
+        let child = from_split.child + side;
         node[child].children = 0u;
         node[child].axis = at.axis;
         node[child].threshold = at.threshold;
