@@ -1,26 +1,15 @@
 //! Density and clusters: the CPU's maps go into both backends, and what comes out must agree in every bit.
 
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 use vsgl_core::backend::Backend;
 use vsgl_core::data::{Columns, Pdf, Rsm, SceneData, Vsgls};
 use vsgl_core::plan::BouncePlan;
 use vsgl_cpu::CpuBackend;
+use vsgl_tests::assets::assets;
+use vsgl_tests::gpu::{Tier, device};
 use vsgl_tests::render::Shot;
-use vsgl_wgpu::{WgpuBackend, WgpuOptions};
-
-/// One device for all tests: a driver's compiler is slow, and pipelines are kept.
-fn gpu() -> &'static WgpuBackend {
-    static GPU: OnceLock<WgpuBackend> = OnceLock::new();
-    GPU.get_or_init(|| {
-        let options = WgpuOptions {
-            strict: true,
-            ..WgpuOptions::default()
-        };
-        let gpu = WgpuBackend::headless(&options).expect("an adapter with Vulkan");
-        println!("on {:?}", gpu.context().info());
-        gpu
-    })
-}
+use vsgl_tests::view::shot;
+use vsgl_wgpu::WgpuBackend;
 
 /// Every column and the head of a resource, bit by bit; says which entry differs first, and how many do.
 fn same<T: Columns>(name: &str, tested: &T, reference: &T) {
@@ -77,11 +66,11 @@ struct Made {
     vsgls: [Arc<Vsgls>; 2],
 }
 
-fn made(shot: &Shot) -> Made {
+fn made(gpu: &WgpuBackend, shot: &Shot) -> Made {
     let plan = shot.plan();
     let bounce: &BouncePlan = plan.bounce.as_ref().expect("a lit scene");
     let cluster = bounce.cluster.as_ref().expect("clusters");
-    let (cpu, gpu) = (CpuBackend::new(1).expect("threads"), gpu());
+    let cpu = CpuBackend::new(1).expect("threads");
     let scene: Arc<SceneData> = cpu.upload(SceneData::new(&shot.scene)).expect("room");
     let rsm: Arc<Rsm> = cpu.rsm(&scene, &shot.lights, &bounce.rsm).expect("maps");
     let scene_gpu = gpu.upload(SceneData::clone(&scene)).expect("room");
@@ -97,17 +86,10 @@ fn made(shot: &Shot) -> Made {
     let pdf_gpu = pdf_cpu
         .as_ref()
         .map(|pdf| gpu.upload(Pdf::clone(pdf)).expect("room"));
-    let start = std::time::Instant::now();
     let tested = gpu
         .cluster(&scene_gpu, &rsm_gpu, pdf_gpu.as_ref(), cluster)
         .expect("clusters");
     let tested = gpu.download(&tested).expect("clusters");
-    println!(
-        "{} texels, {} lights: {:.3} s on the GPU",
-        rsm.position.len(),
-        tested.count,
-        start.elapsed().as_secs_f64()
-    );
     let reference = cpu
         .cluster(&scene, &rsm, pdf_cpu.as_ref(), cluster)
         .expect("clusters");
@@ -117,41 +99,117 @@ fn made(shot: &Shot) -> Made {
     }
 }
 
-fn check(name: &str, shot: &Shot) {
-    let made = made(shot);
-    if let Some([tested, reference]) = &made.pdf {
-        same(name, &**tested, &**reference);
-    }
-    let [tested, reference] = &made.vsgls;
-    same(name, &**tested, &**reference);
-}
-
-#[test]
-fn partition_of_a_built_in_scene() {
-    for settings in [
-        "rsm=64 lights=64",
-        "rsm=64 lights=512",
-        "rsm=64 lights=1",
-        "rsm=512 lights=1024",
-        "rsm=1 lights=16",
-        "rsm=3 lights=256",
-    ] {
-        check(settings, &Shot::sample("cornell").with(settings));
+/// Density, labels, texels, kernels and lights agree in every bit; nothing if there is no such driver.
+fn check(name: &str, shot: &Shot, settings: &[&str]) {
+    let Some(gpu) = device(Tier::Lavapipe, true, &format!("phases of {name}")) else {
+        return;
+    };
+    for settings in settings {
+        let name = format!("{name} {settings}");
+        let made = made(&gpu, &shot.clone().with(settings));
+        if let Some([tested, reference]) = &made.pdf {
+            same(&name, &**tested, &**reference);
+        }
+        let [tested, reference] = &made.vsgls;
+        same(&name, &**tested, &**reference);
     }
 }
 
 #[test]
-fn filtered_kernels_of_a_built_in_scene() {
-    for settings in [
-        "rsm=64 lights=64",
-        "rsm=64 lights=1",
-        "rsm=50 lights=300 kernel=3 bisections=20",
-        "rsm=1 lights=16",
-        "rsm=3 lights=256",
-    ] {
-        let shot = Shot::sample("cornell")
-            .with("clustering=filtered")
-            .with(settings);
-        check(settings, &shot);
+fn partition_by_any_number_from_any_size() {
+    check(
+        "cornell",
+        &Shot::sample("cornell"),
+        &[
+            "rsm=1 lights=16",
+            "rsm=3 lights=1",
+            "rsm=3 lights=256",
+            "rsm=64 lights=1",
+            "rsm=64 lights=2",
+            "rsm=64 lights=1024",
+            "rsm=64 lights=65536",
+            "rsm=512 lights=1024",
+            "rsm=512 lights=65536",
+        ],
+    );
+}
+
+#[test]
+fn kernels_by_any_number_from_any_size() {
+    check(
+        "cornell",
+        &Shot::sample("cornell").with("clustering=filtered"),
+        &[
+            "rsm=1 lights=16",
+            "rsm=3 lights=1",
+            "rsm=3 lights=256",
+            "rsm=64 lights=1",
+            "rsm=50 lights=300 kernel=3 bisections=20",
+            "rsm=64 lights=65536",
+            "rsm=512 lights=1024",
+        ],
+    );
+}
+
+#[test]
+fn built_in_scenes() {
+    for name in ["glossy-floor", "columns", "caustic-ring", "roughness-row"] {
+        let all = ["rsm=64 lights=256", "rsm=64 lights=256 clustering=filtered"];
+        check(name, &Shot::sample(name), &all);
+    }
+}
+
+#[test]
+fn several_maps_and_dark_ones() {
+    let settings = [
+        "lights=2",
+        "lights=256",
+        "lights=2 clustering=filtered",
+        "clustering=filtered",
+    ];
+    let mut shot = Shot::sample("many-lights:3").with("rsm=50");
+    check("many-lights", &shot, &settings);
+    for (dark, spot) in shot.spots().enumerate() {
+        // The light in the middle, which has maps before and after it.
+        if dark == 1 {
+            spot.intensity = [0.0; 3];
+        }
+    }
+    check("many-lights with a dark one", &shot, &settings);
+    shot.spots().for_each(|spot| spot.intensity = [0.0; 3]);
+    check("many-lights, all dark", &shot, &settings);
+}
+
+#[test]
+fn published_forms_and_senders_that_are_not_glossy() {
+    let both = ["clustering=partition", "clustering=filtered"];
+    let published = Shot::sample("cornell")
+        .with("emission=sg sharpness=toksvig variance=trace glossy=asg-2013");
+    check("published", &published, &both);
+    check(
+        "emission by SG",
+        &Shot::sample("cornell").with("emission=sg"),
+        &both,
+    );
+    let mut lambert = Shot::sample("cornell");
+    for material in &mut lambert.scene.materials {
+        (material.metallic, material.specular) = (0.0, 0.0);
+    }
+    assert!(!lambert.facts().glossy_senders);
+    check("Lambert alone", &lambert, &both);
+}
+
+#[test]
+fn scenes_by_others() {
+    let Some(root) = assets("", "phases of scenes by others") else {
+        return;
+    };
+    for name in ["room_spot", "cornell"] {
+        let all = [
+            "rsm=512 lights=256",
+            "rsm=64 lights=1024",
+            "rsm=64 lights=256 clustering=filtered",
+        ];
+        check(name, &shot(&root, name), &all);
     }
 }

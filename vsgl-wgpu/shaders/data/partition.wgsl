@@ -38,6 +38,8 @@ struct State {
     slots: u32,
     // Blocks that the clusters are summed up by.
     blocks: u32,
+    // 1 while the nodes are those of the maps, each as if it were the first of two children.
+    roots: u32,
 }
 
 // A range of the list in the end, and the first of the blocks that it is summed up by.

@@ -131,6 +131,7 @@ fn best(@builtin(local_invocation_index) local: u32) {
         state.nodes = nodes + 2u * open;
         state.open = open;
         state.slots = slots.total;
+        state.roots = 0u;
         slot_groups = groups_of(slots.total);
         child_groups = groups_of(2u * open);
     }

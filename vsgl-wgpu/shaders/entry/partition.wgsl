@@ -133,6 +133,7 @@ fn roots(@builtin(local_invocation_index) local: u32) {
         state.nodes = maps;
         state.open = maps;
         state.slots = scanned.total;
+        state.roots = 1u;
         slot_groups = groups_of(scanned.total);
         child_groups = groups_of(maps);
     }

@@ -2,9 +2,6 @@
 // A round of the partition: which sets are split, where their texels go, and what decides about the halves. Twin of
 // `Tree::round` in `vsgl-cpu/src/phase/partition.rs`.
 
-// The nodes of the maps instead of the halves of splits.
-override ROOTS: bool = false;
-
 @group(0) @binding(0) var<storage, read> texel: array<vec4<f32>>;
 @group(0) @binding(1) var<storage, read> place: array<vec4<f32>>;
 @group(0) @binding(2) var<storage, read_write> list: array<u32>;
@@ -140,7 +137,7 @@ fn range_of(slot: u32) -> Range {
     var b = slot - from_split.slot;
     let blocks = blocks_of(node[child].length, PARTITION_BLOCK);
     if b >= blocks {
-        if ROOTS {
+        if state.roots > 0u {
             return Range(0u, 0u);
         }
         b -= blocks;
@@ -190,7 +187,7 @@ fn features(
 }
 
 fn moved(at: u32) -> u32 {
-    if ROOTS {
+    if state.roots > 0u {
         return list[at];
     }
     let index = spare[at];
@@ -208,8 +205,8 @@ fn nodes(
     @builtin(local_invocation_index) local: u32,
 ) {
     let item = group_index(group, groups);
-    let k = select(item / 2u, item, ROOTS);
-    let side = select(item % 2u, 0u, ROOTS);
+    let k = select(item / 2u, item, state.roots > 0u);
+    let side = select(item % 2u, 0u, state.roots > 0u);
     var blocks = 0u;
     if k < state.open {
         let from_split = split[k];
@@ -237,7 +234,7 @@ fn nodes(
         let from_split = split[k];
         var above = F32_MAX;
         var scale = 1.0;
-        if ROOTS {
+        if state.roots > 0u {
             if blocks > 0u {
                 scale = features_scale(lanes[0]);
             }

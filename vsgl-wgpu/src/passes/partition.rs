@@ -29,7 +29,7 @@ struct Params {
 /// `phase/cluster.wgsl` declare them.
 const NODE: u64 = 32;
 const SPLIT: u64 = 12;
-const STATE: u64 = 36;
+const STATE: u64 = 40;
 const CLUSTER: u64 = 12;
 const GROUPS: u64 = 12;
 const FEATURES: u64 = 64;
@@ -105,7 +105,6 @@ const ROUND: [(&str, &str); 5] = [
 ];
 const AFTER: [&str; 4] = ["begins", "numbers", "labels", "blocks"];
 const SUMS: [&str; 2] = ["block_sums", "cluster_sums"];
-const ROOTS: [Constant; 1] = [("ROOTS", 1.0)];
 const LAST: [Constant; 1] = [("LAST", 1.0)];
 
 /// The pipelines that a plan needs.
@@ -114,7 +113,6 @@ pub(super) fn kernels(plan: &ClusterPlan) -> Vec<KernelId> {
     let sums = constants(plan);
     let mut kernels = Vec::new();
     kernels.extend(BEFORE.map(|e| KernelId::new("entry/partition", e, &has_specular)));
-    kernels.extend(OF_ROOTS.map(|e| KernelId::new("entry/round", e, &ROOTS)));
     kernels.extend(ROUND.map(|(file, e)| KernelId::new(file, e, &[])));
     kernels.push(KernelId::new("entry/best", "best", &LAST));
     kernels.extend(AFTER.map(|e| KernelId::new("entry/leaves", e, &[])));
@@ -166,7 +164,7 @@ pub(super) fn record(
     let mut rounds = bound.clone();
     rounds.push(("block", Binding::Buffer(&work.features)));
     for (entry, groups) in OF_ROOTS.into_iter().zip([slots, children]) {
-        let kernel = context.kernel("entry/round", entry, &ROOTS)?;
+        let kernel = context.kernel("entry/round", entry, &[])?;
         recorder.dispatch(&kernel, &(), &rounds, groups)?;
     }
     for _ in 0..partition::rounds(plan.count) {
