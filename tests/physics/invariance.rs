@@ -3,7 +3,7 @@
 use vsgl_core::data::Image;
 use vsgl_core::glam::{DVec3, Quat, Vec3};
 use vsgl_core::render::Frame;
-use vsgl_core::scene::{Light, Scene, gltf};
+use vsgl_core::scene::{Scene, gltf};
 use vsgl_cpu::CpuBackend;
 use vsgl_tests::gltf::room;
 use vsgl_tests::measure::{quantile, relative_differences};
