@@ -39,6 +39,14 @@ pub enum Error {
         /// Which column, and what does not fit.
         problem: String,
     },
+    /// A comparison that would prove nothing.
+    #[error("comparing `{resource}`: {problem}")]
+    Comparison {
+        /// Name of the resource type.
+        resource: &'static str,
+        /// Why.
+        problem: String,
+    },
     /// No device to compute on was found.
     #[error("no adapter: {problem}; {remedy}")]
     NoAdapter {

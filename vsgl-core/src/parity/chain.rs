@@ -67,7 +67,7 @@ pub struct Step {
 /// not show up in all after it. Whole pictures are judged where both cameras see the same triangles.
 ///
 /// # Errors
-/// What the backends return; [`Error::Columns`] for a backend and itself; [`Error::Cancelled`] if the observer says so.
+/// What the backends return; [`Error::Comparison`] for a backend and itself; [`Error::Cancelled`] if the observer says so.
 pub fn chain<R: Backend, T: Backend>(
     reference: &Party<'_, R>,
     tested: &Party<'_, T>,

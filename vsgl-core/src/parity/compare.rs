@@ -48,7 +48,7 @@ pub struct Side<'a, T> {
 /// finds them; values of the others are not judged. Sizes that differ are a finding, not an error.
 ///
 /// # Errors
-/// [`Error::Columns`] if both sides have one origin or are one resource: that would prove nothing.
+/// [`Error::Comparison`] if both sides have one origin or are one resource: that would prove nothing.
 pub fn compare<T: Columns>(
     tested: &Side<'_, T>,
     reference: &Side<'_, T>,
@@ -56,7 +56,7 @@ pub fn compare<T: Columns>(
     agree: Option<&[bool]>,
 ) -> Result<Comparison> {
     if tested.origin == reference.origin || std::ptr::eq(tested.value, reference.value) {
-        return Err(Error::Columns {
+        return Err(Error::Comparison {
             resource: T::NAME,
             problem: format!(
                 "both sides come from {}: compare two backends",
