@@ -42,6 +42,10 @@ fn bad_arguments_are_refused_before_any_work() {
     let message = folder.run("parity nowhere.glb").failed(3);
     assert!(message.contains("nowhere.glb"));
     folder.run(&format!("parity {SMALL} -o a.exr")).failed(2);
+    let message = folder
+        .run(&format!("parity {SMALL} --primary raster"))
+        .failed(2);
+    assert!(message.contains("--primary"), "{message}");
     folder
         .run(&format!("parity {SMALL} --threads 99999999"))
         .failed(2);

@@ -13,6 +13,7 @@ use picture::Pictures;
 use report::Report;
 use vsgl_core::data::SceneData;
 use vsgl_core::parity::{Origin, Party, Step, Subject, Tolerance, chain};
+use vsgl_core::settings::Primary;
 use vsgl_cpu::CpuBackend;
 use vsgl_wgpu::{WgpuBackend, is_software};
 
@@ -33,6 +34,13 @@ const DEFAULTS: Defaults = Defaults {
 pub(super) fn run(args: &ParityArgs) -> Result<()> {
     interrupt::listen()?;
     let job = Job::with(&args.scene, &args.view, &args.settings, &DEFAULTS)?;
+    if job.settings.primary == Primary::Raster {
+        return Err(Failure::Usage(
+            "parity holds every backend against the rays of the CPU, and --primary raster differs from them along edges; \
+             leave it out"
+                .into(),
+        ));
+    }
     for warning in &job.warnings {
         text::warn(&format!("warning: {warning}"));
     }
