@@ -118,3 +118,23 @@ pub(crate) fn record(
     )?;
     Ok(made)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Params;
+    use crate::layout::twins;
+
+    #[test]
+    fn parameters_lie_alike() {
+        twins!(
+            "entry/cluster",
+            "Params",
+            Params {
+                texels,
+                map_texels,
+                capacity,
+                specular_stride
+            }
+        );
+    }
+}

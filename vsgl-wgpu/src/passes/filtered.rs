@@ -26,7 +26,7 @@ struct Params {
 }
 
 /// Bytes of a `Kernel` as `phase/filtered.wgsl` declares it.
-const KERNEL: u64 = 20;
+pub(super) const KERNEL: u64 = 20;
 
 /// The pipelines that a plan needs.
 pub(super) fn kernels(plan: &ClusterPlan) -> Vec<KernelId> {
@@ -93,4 +93,28 @@ pub(super) fn record(
     run("kernels", &params, Groups::Items(capacity))?;
     run("gather", &params, Groups::Items(capacity))?;
     Ok(Drawn { sum })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Params;
+    use crate::layout::twins;
+
+    #[test]
+    fn parameters_lie_alike() {
+        twins!(
+            "entry/filtered",
+            "Params",
+            Params {
+                size,
+                maps,
+                rsm_size,
+                map_texels,
+                texels,
+                level,
+                overlap,
+                bisections
+            }
+        );
+    }
 }

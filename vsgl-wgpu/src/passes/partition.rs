@@ -22,7 +22,6 @@ struct Params {
     maps: u32,
     clusters: u32,
     most: u32,
-    padding: [u32; 3],
 }
 
 /// Bytes of the records that only the device writes, as `data/partition.wgsl`, `phase/partition.wgsl` and
@@ -142,7 +141,6 @@ pub(super) fn record(
         maps,
         clusters: plan.count,
         most,
-        padding: [0; 3],
     };
     let mut bound = work.bound();
     bound.extend([
@@ -197,4 +195,60 @@ pub(super) fn record(
         recorder.dispatch(&kernel, &params, &sums, groups)?;
     }
     Ok(Drawn { sum })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::layout::twins;
+    use crate::shaders::link;
+    use wgpu::naga::front::wgsl::parse_str;
+    use wgpu::naga::proc::Layouter;
+
+    #[test]
+    fn parameters_lie_alike() {
+        twins!(
+            "entry/partition",
+            "Params",
+            Params {
+                texels,
+                map_texels,
+                maps,
+                clusters,
+                most
+            }
+        );
+    }
+
+    /// Too small a buffer would not fail: accesses beyond its end are moved inside it.
+    #[test]
+    fn records_have_the_sizes_that_shaders_give_them() {
+        let mut found = 0;
+        for file in ["entry/round", "entry/cluster", "entry/filtered"] {
+            let module = parse_str(&link(&[file])).expect(file);
+            let mut layouter = Layouter::default();
+            layouter.update(module.to_ctx()).expect(file);
+            for (handle, kind) in module.types.iter() {
+                let bytes = match kind.name.as_deref() {
+                    Some("Node") => NODE,
+                    Some("Split") => SPLIT,
+                    Some("State") => STATE,
+                    Some("Cluster") => CLUSTER,
+                    Some("Groups") => GROUPS,
+                    Some("Features") => FEATURES,
+                    Some("Sum") => SUM,
+                    Some("Kernel") => super::super::filtered::KERNEL,
+                    _ => continue,
+                };
+                assert_eq!(
+                    u64::from(layouter[handle].to_stride()),
+                    bytes,
+                    "{:?}",
+                    kind.name
+                );
+                found += 1;
+            }
+        }
+        assert!(found >= 8, "{found} records");
+    }
 }

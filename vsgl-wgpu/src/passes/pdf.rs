@@ -21,7 +21,6 @@ struct Params {
     level: u32,
     lights: u32,
     specular: u32,
-    padding: u32,
 }
 
 /// The pipelines that a plan needs.
@@ -66,7 +65,6 @@ pub(crate) fn record(
         level: 0,
         lights: plan.count,
         specular: u32::from(rsm.len("grazing") > 0),
-        padding: 0,
     };
     for level in 0..=top {
         params.level = level;
@@ -78,4 +76,27 @@ pub(crate) fn record(
     let kernel = context.kernel("entry/pdf", "shares", &[])?;
     recorder.dispatch(&kernel, &params, &bound, Groups::Count(1))?;
     Ok(made)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Params;
+    use crate::layout::twins;
+
+    #[test]
+    fn parameters_lie_alike() {
+        twins!(
+            "entry/pdf",
+            "Params",
+            Params {
+                size,
+                maps,
+                rsm_size,
+                texels,
+                level,
+                lights,
+                specular
+            }
+        );
+    }
 }
