@@ -184,3 +184,20 @@ fn filtered_kernels_keep_the_flux_in_the_mean() {
         assert!(error.abs() < 0.05, "{name}: {error}");
     }
 }
+
+#[test]
+fn rounds_suffice_for_as_many_clusters_as_asked_for() {
+    for name in ["cornell", "glossy-floor", "caustic-ring", "many-lights:3"] {
+        for lights in [1, 2, 16, 256, 4096, 65_536] {
+            let shot = Shot::sample(name)
+                .size(2, 2)
+                .with(&format!("occlusion=none lights={lights}"));
+            let frame = shot.frame();
+            let vsgls = frame.vsgls.expect("clusters");
+            let lit = vsgls.label.iter().filter(|&&l| l != u32::MAX).count();
+            let maps = frame.rsm.expect("maps").maps as usize;
+            let asked = (lights as usize).max(maps).min(lit);
+            assert_eq!(vsgls.count as usize, asked, "{name}, {lights} lights");
+        }
+    }
+}
