@@ -2,6 +2,7 @@
 
 use crate::context::{Context, WgpuOptions};
 use crate::passes;
+use crate::passes::shade::Submits;
 use crate::recorder::Recorder;
 use crate::res::WgpuRes;
 use crate::timing::{Clock, Timings};
@@ -130,7 +131,7 @@ impl Backend for WgpuBackend {
         plan: &ShadePlan,
         observer: &dyn Observer,
     ) -> Result<WgpuRes<Radiance>> {
-        let shading = passes::shade::Shading::new(&self.context, inputs, plan)?;
+        let shading = passes::shade::Shading::new(&self.context, inputs, plan, Submits::Bands)?;
         for (done, band) in shading.bands() {
             if observer.cancelled() {
                 return Err(Error::Cancelled(Phase::Shade));

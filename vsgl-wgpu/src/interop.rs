@@ -15,6 +15,7 @@ use crate::backend::WgpuBackend;
 use crate::context::Context;
 use crate::kernel::KernelId;
 use crate::passes;
+use crate::passes::shade::Submits;
 use crate::recorder::Recorder;
 use crate::res::WgpuRes;
 use textures::check;
@@ -219,7 +220,7 @@ impl Context {
             lights: &[],
             senders: vsgls.as_ref().map_or(Senders::Vpls(rsm), Senders::Vsgls),
         };
-        let shading = passes::shade::Shading::new(self, &shaded, &plan.shade)?;
+        let shading = passes::shade::Shading::new(self, &shaded, &plan.shade, Submits::Host)?;
         let mut recorder = Recorder::new(self, encoder, Phase::Shade);
         for (_, band) in shading.bands() {
             shading.record(&mut recorder, &shaded, band)?;

@@ -31,7 +31,7 @@ pub const NORMAL_SCALE: f32 = 0.35 * 0.35;
 
 /// Most rounds for this many clusters: `4 + 2 ⌈log₂ count⌉`.
 ///
-/// A balanced tree takes `⌈log₂ count⌉`. Twelve scenes with 64² to 1024² texels took no more than 1 (2 clusters), 5 (16),
+/// A balanced tree takes `⌈log₂ count⌉`. Eleven scenes with 64² to 1024² texels took no more than 1 (2 clusters), 5 (16),
 /// 11 (256), 13 (1024), 20 (4096) and 21 (65,536); allowed are 6, 12, 20, 24, 28 and 36. Where these do not suffice there
 /// are fewer clusters than asked for.
 pub fn rounds(count: u32) -> u32 {

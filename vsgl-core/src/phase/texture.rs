@@ -9,7 +9,10 @@ pub fn sample(scene: &SceneData, texture: u32, u: f32, v: f32, srgb: bool) -> [f
     let x = u * record.width as f32 - 0.5;
     let y = v * record.height as f32 - 0.5;
     if record.mode & 16 != 0 {
-        return load(scene, &record, (x + 0.5).floor(), (y + 0.5).floor(), srgb);
+        return scaled(
+            load(scene, &record, (x + 0.5).floor(), (y + 0.5).floor(), srgb),
+            srgb,
+        );
     }
     let (left, top) = (x.floor(), y.floor());
     let (s, t) = (x - left, y - top);
@@ -20,9 +23,23 @@ pub fn sample(scene: &SceneData, texture: u32, u: f32, v: f32, srgb: bool) -> [f
         corner(0.0, 1.0),
         corner(1.0, 1.0),
     );
-    std::array::from_fn(|i| mix(mix(a[i], b[i], s), mix(c[i], d[i], s), t))
+    let mixed = std::array::from_fn(|i| mix(mix(a[i], b[i], s), mix(c[i], d[i], s), t));
+    scaled(mixed, srgb)
 }
 
+/// Channels that hold codes, divided by 255. After interpolation: before, a driver takes the factor out of the sums, and
+/// what is left of one minus a metallic factor near one is a rounding.
+fn scaled(texel: [f32; 4], srgb: bool) -> [f32; 4] {
+    std::array::from_fn(|i| {
+        if srgb && i < 3 {
+            texel[i]
+        } else {
+            texel[i] * (1.0 / 255.0)
+        }
+    })
+}
+
+/// A texel: linear colour where sRGB is decoded, codes 0..=255 elsewhere.
 fn load(scene: &SceneData, record: &TextureRecord, x: f32, y: f32, srgb: bool) -> [f32; 4] {
     let column = wrap(x, record.width, record.mode & 3);
     let row = wrap(y, record.height, record.mode >> 2 & 3);
@@ -31,7 +48,7 @@ fn load(scene: &SceneData, record: &TextureRecord, x: f32, y: f32, srgb: bool) -
         if srgb && i < 3 {
             scene.srgb[usize::from(code[i])]
         } else {
-            f32::from(code[i]) * (1.0 / 255.0)
+            f32::from(code[i])
         }
     };
     std::array::from_fn(channel)

@@ -21,7 +21,7 @@ fn texture_sample(texture: u32, u: f32, v: f32, srgb: bool) -> vec4<f32> {
     let x = u * f32(record.width) - 0.5;
     let y = v * f32(record.height) - 0.5;
     if (record.mode & 16u) != 0u {
-        return texture_load(record, floor(x + 0.5), floor(y + 0.5), srgb);
+        return texture_scaled(texture_load(record, floor(x + 0.5), floor(y + 0.5), srgb), srgb);
     }
     let left = floor(x);
     let top = floor(y);
@@ -33,19 +33,24 @@ fn texture_sample(texture: u32, u: f32, v: f32, srgb: bool) -> vec4<f32> {
     let d = texture_load(record, left + 1.0, top + 1.0, srgb);
     let upper = a + (b - a) * s;
     let lower = c + (d - c) * s;
-    return upper + (lower - upper) * t;
+    return texture_scaled(upper + (lower - upper) * t, srgb);
 }
+
+fn texture_scaled(texel: vec4<f32>, srgb: bool) -> vec4<f32> {
+    let scaled = texel * (1.0 / 255.0);
+    return select(scaled, vec4(texel.xyz, scaled.w), srgb);
+}
+
 
 fn texture_load(record: TextureRecord, x: f32, y: f32, srgb: bool) -> vec4<f32> {
     let column = texture_wrap(x, record.width, record.mode & 3u);
     let row = texture_wrap(y, record.height, (record.mode >> 2u) & 3u);
     let word = texture_word(params.texels.texel + record.first + row * record.width + column);
     let code = vec4(word & 255u, (word >> 8u) & 255u, (word >> 16u) & 255u, word >> 24u);
-    let linear = vec4<f32>(code) * (1.0 / 255.0);
     if srgb {
-        return vec4(texture_srgb(code.x), texture_srgb(code.y), texture_srgb(code.z), linear.w);
+        return vec4(texture_srgb(code.x), texture_srgb(code.y), texture_srgb(code.z), f32(code.w));
     }
-    return linear;
+    return vec4<f32>(code);
 }
 
 fn texture_srgb(code: u32) -> f32 {

@@ -24,10 +24,10 @@ const PAIRS_SOFTWARE: u64 = 1 << 23;
 /// What a pair costs with a ray, in pairs without.
 const RAY_COST: u64 = 8;
 /// Lights in one dispatch. Lavapipe leaves a shader's loops after 65,535 rounds in all, those of rays through the hierarchy
-/// included, without a word: so a ray may take a thousand.
+/// included, without a word: so a ray may take eight thousand.
 const LIGHTS_GPU: u32 = 1 << 16;
 const LIGHTS_SOFTWARE: u32 = 1 << 14;
-const LIGHTS_SOFTWARE_RAYS: u32 = 1 << 6;
+const LIGHTS_SOFTWARE_RAYS: u32 = 1 << 3;
 
 /// Twin of `Params` in `entry/shade.wgsl`.
 #[repr(C)]
@@ -88,6 +88,15 @@ struct SenderParams {
     count: u32,
 }
 
+/// Who submits what is recorded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Submits {
+    /// We do, each band for itself, and may be stopped between them.
+    Bands,
+    /// A host, all at once. Software drivers have no watchdog: fewer dispatches are better there.
+    Host,
+}
+
 /// Shading that is recorded band by band.
 #[derive(Debug)]
 pub(crate) struct Shading {
@@ -120,6 +129,7 @@ impl Shading {
         context: &Context,
         inputs: &ShadeInputs<'_, WgpuBackend>,
         plan: &ShadePlan,
+        submits: Submits,
     ) -> Result<Self> {
         let gbuffer = inputs.gbuffer;
         let count = gbuffer.len("triangle");
@@ -151,7 +161,11 @@ impl Shading {
         let software = is_software(context.info());
         let pairs = if software { PAIRS_SOFTWARE } else { PAIRS_GPU };
         let lights_all = bounce.as_ref().map_or(0, |b| u64::from(b.lights)) + lights.len() as u64;
-        let band = (pairs / (cost * lights_all.max(1))).clamp(1 << 12, count.max(1 << 12));
+        let least = match submits {
+            Submits::Host if software => count.max(1),
+            _ => 1 << 12,
+        };
+        let band = (pairs / (cost * lights_all.max(1))).clamp(least, count.max(least));
         let group = |rays: bool| match (software, rays) {
             (false, _) => LIGHTS_GPU,
             (true, false) => LIGHTS_SOFTWARE,
