@@ -2,11 +2,8 @@
 //!
 //! Never in strict mode: what is drawn is an id or a copy, and no arithmetic of a phase.
 
-use crate::kernel::globals;
-use crate::shaders::link;
+use crate::linked::Linked;
 use std::sync::{Arc, Mutex};
-use wgpu::naga;
-use wgpu::naga::valid::{Capabilities, ValidationFlags, Validator};
 
 /// Depth of what is drawn, the nearest the largest.
 pub(crate) const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
@@ -60,35 +57,17 @@ impl Drawings {
 impl Drawing {
     fn new(device: &wgpu::Device, id: &DrawingId) -> Result<Self, String> {
         let label = format!("{} to {:?}", id.file, id.color);
-        let source = link(&[id.file]);
-        let parsed = naga::front::wgsl::parse_str(&source)
-            .map_err(|e| format!("{label}: {}", e.emit_to_string(&source)))?;
-        let info = Validator::new(ValidationFlags::all(), Capabilities::empty())
-            .validate(&parsed)
-            .map_err(|e| format!("{label}: {}", e.emit_to_string(&source)))?;
-        let globals = globals(&parsed, &info, &["vertex", "fragment"])?;
-        let entries: Vec<wgpu::BindGroupLayoutEntry> = globals
-            .iter()
-            .map(|(_, binding, kind)| wgpu::BindGroupLayoutEntry {
-                binding: *binding,
-                visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
-                ty: *kind,
-                count: None,
-            })
-            .collect();
-        let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-            label: Some(&label),
-            entries: &entries,
-        });
-        let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: Some(&label),
-            bind_group_layouts: &[Some(&layout)],
-            immediate_size: 0,
-        });
+        let shader = Linked::new(
+            device,
+            &label,
+            id.file,
+            &["vertex", "fragment"],
+            wgpu::ShaderStages::VERTEX_FRAGMENT,
+        )?;
         let scope = device.push_error_scope(wgpu::ErrorFilter::Validation);
         let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some(&label),
-            source: wgpu::ShaderSource::Wgsl(source.into()),
+            source: wgpu::ShaderSource::Wgsl(shader.source.as_str().into()),
         });
         let sum = wgpu::BlendComponent {
             src_factor: wgpu::BlendFactor::One,
@@ -101,7 +80,7 @@ impl Drawing {
         };
         let pipeline = device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(&label),
-            layout: Some(&pipeline_layout),
+            layout: Some(&shader.pipeline_layout),
             vertex: wgpu::VertexState {
                 module: &module,
                 entry_point: Some("vertex"),
@@ -138,11 +117,8 @@ impl Drawing {
         Ok(Self {
             label,
             pipeline,
-            layout,
-            bindings: globals
-                .into_iter()
-                .map(|(name, binding, _)| (name, binding))
-                .collect(),
+            bindings: shader.bindings(),
+            layout: shader.layout,
         })
     }
 }

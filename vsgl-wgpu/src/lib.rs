@@ -37,6 +37,7 @@ pub mod interop;
 mod kernel;
 #[cfg(test)]
 mod layout;
+mod linked;
 mod params;
 mod passes;
 mod pool;

@@ -1,6 +1,6 @@
 //! What the camera sees.
 
-use super::flag;
+use super::{flag, scene_columns};
 use crate::kernel::{Constant, KernelId};
 use crate::params::{TexelLayout, View};
 use crate::raster;
@@ -71,41 +71,31 @@ pub(crate) fn record(
         nodes: scene.len("node") as u32,
         padding: [0; 3],
     };
+    let mut bound = scene_columns(scene);
+    bound.extend([
+        ("triangle", made.bind("triangle")),
+        ("triangle_out", made.bind("triangle")),
+        ("surface_out", made.bind("position")),
+        ("grazing_out", made.bind("grazing")),
+    ]);
+    let mut bound = scene_columns(scene);
+    bound.extend([
+        ("triangle", made.bind("triangle")),
+        ("triangle_out", made.bind("triangle")),
+        ("surface_out", made.bind("position")),
+        ("grazing_out", made.bind("grazing")),
+    ]);
     if plan.primary == Primary::Raster && raster::fits(view) {
         raster::record(recorder, scene, view, &made)?;
     } else {
         let visibility = context.kernel("entry/gbuffer", "visibility", &[])?;
-        recorder.dispatch(
-            &visibility,
-            &params,
-            &[
-                ("node", scene.bind("node")),
-                ("corner", scene.bind("corner")),
-                ("triangle_out", made.bind("triangle")),
-            ],
-            Groups::Items(count),
-        )?;
+        recorder.dispatch(&visibility, &params, &bound, Groups::Items(count))?;
     }
     // A plan made by hand may ask for textures that the scene has not.
     let textures = plan.textures && scene.len("corner_texcoord") > 0;
     let constants = constants(plan.glossy, textures);
     let surface = context.kernel("entry/gbuffer", "surface", &constants)?;
-    recorder.dispatch(
-        &surface,
-        &params,
-        &[
-            ("corner", scene.bind("corner")),
-            ("corner_normal", scene.bind("corner_normal")),
-            ("corner_texcoord", scene.bind("corner_texcoord")),
-            ("triangle_material", scene.bind("triangle_material")),
-            ("material", scene.bind("material")),
-            ("texels", scene.bind("texel")),
-            ("triangle", made.bind("triangle")),
-            ("surface_out", made.bind("position")),
-            ("grazing_out", made.bind("grazing")),
-        ],
-        Groups::Items(count),
-    )?;
+    recorder.dispatch(&surface, &params, &bound, Groups::Items(count))?;
     Ok(made)
 }
 

@@ -12,6 +12,9 @@ pub(crate) mod rsm;
 pub(crate) mod shade;
 
 use crate::kernel::KernelId;
+use crate::recorder::Binding;
+use crate::res::WgpuRes;
+use vsgl_core::data::SceneData;
 use vsgl_core::plan::Plan;
 
 /// Every pipeline that a plan needs.
@@ -32,4 +35,20 @@ pub fn kernels(plan: &Plan) -> Vec<KernelId> {
 /// A `bool` as an `override` constant.
 fn flag(value: bool) -> f64 {
     f64::from(u8::from(value))
+}
+
+/// The columns of a scene, under the names that shaders bind them by.
+fn scene_columns(scene: &WgpuRes<SceneData>) -> Vec<(&'static str, Binding<'_>)> {
+    let mut bound = [
+        "node",
+        "corner",
+        "corner_normal",
+        "corner_texcoord",
+        "triangle_material",
+        "material",
+    ]
+    .map(|name| (name, scene.bind(name)))
+    .to_vec();
+    bound.push(("texels", scene.bind("texel")));
+    bound
 }

@@ -1,6 +1,6 @@
 //! What the lights see.
 
-use super::flag;
+use super::{flag, scene_columns};
 use crate::kernel::{Constant, KernelId};
 use crate::params::TexelLayout;
 use crate::recorder::{Groups, Recorder};
@@ -70,6 +70,15 @@ pub(crate) fn record(
     let textures = plan.textures && scene.len("corner_texcoord") > 0;
     let constants = constants(plan.glossy, textures);
     let surface = context.kernel("entry/rsm", "surface", &constants)?;
+    let mut bound = scene_columns(scene);
+    bound.extend([
+        ("triangle", made.bind("triangle")),
+        ("triangle_out", made.bind("triangle")),
+        ("texel_out", made.bind("position")),
+        // Not from the host: what it writes comes before all that is recorded, and a host may have recorded something
+        // that used this buffer before.
+        ("map_out", made.bind("map")),
+    ]);
     for (index, map) in maps.iter().enumerate() {
         let params = Params {
             map: *map,
@@ -79,34 +88,8 @@ pub(crate) fn record(
             first: (index as u64 * side) as u32,
             count: count as u32,
         };
-        recorder.dispatch(
-            &visibility,
-            &params,
-            &[
-                ("node", scene.bind("node")),
-                ("corner", scene.bind("corner")),
-                ("triangle_out", made.bind("triangle")),
-                // Not from the host: what it writes comes before all that is recorded, and a host may have recorded
-                // something that used this buffer before.
-                ("map_out", made.bind("map")),
-            ],
-            Groups::Items(side),
-        )?;
-        recorder.dispatch(
-            &surface,
-            &params,
-            &[
-                ("corner", scene.bind("corner")),
-                ("corner_normal", scene.bind("corner_normal")),
-                ("corner_texcoord", scene.bind("corner_texcoord")),
-                ("triangle_material", scene.bind("triangle_material")),
-                ("material", scene.bind("material")),
-                ("texels", scene.bind("texel")),
-                ("triangle", made.bind("triangle")),
-                ("texel_out", made.bind("position")),
-            ],
-            Groups::Items(side),
-        )?;
+        recorder.dispatch(&visibility, &params, &bound, Groups::Items(side))?;
+        recorder.dispatch(&surface, &params, &bound, Groups::Items(side))?;
     }
     Ok(made)
 }
