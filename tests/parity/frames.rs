@@ -2,9 +2,11 @@
 //!
 //! In strict mode every bit agrees on software drivers. The ordinary path is what users run.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use vsgl_core::data::SceneData;
+use vsgl_core::glam::Vec3;
 use vsgl_core::parity::{Origin, Party, Stage, Subject, Tolerance, chain};
+use vsgl_core::scene::{Camera, Light, SpotLight, gltf};
 use vsgl_cpu::CpuBackend;
 use vsgl_tests::assets::assets;
 use vsgl_tests::gpu::{Tier, device};
@@ -97,6 +99,47 @@ fn samples_bit_by_bit_on_lavapipe() {
 #[test]
 fn views_bit_by_bit_on_lavapipe() {
     views((320, 180), "lights=256", Tier::Lavapipe, true);
+}
+
+/// A scene by others: a spot in one of its upper corners shines at its centre, and the eye is in another corner.
+fn from_a_corner(file: &Path) -> Shot {
+    let mut scene = gltf::load(file).expect("a scene that loads");
+    let (low, high) = scene.bounds();
+    let (centre, extent) = (0.5 * (low + high), high - low);
+    let position = centre + Vec3::new(0.3, 0.35, 0.3) * extent;
+    scene.lights = vec![Light::Spot(SpotLight {
+        position,
+        axis: (centre - position).normalize(),
+        intensity: [30.0 * extent.max_element().powi(2); 3],
+        inner: 30f32.to_radians(),
+        outer: 40f32.to_radians(),
+    })];
+    let eye = centre + Vec3::new(-0.4, 0.2, 0.45) * extent;
+    let camera = Camera::look_at(eye, centre, 50f32.to_radians());
+    scene.cameras.insert(0, ("corner".into(), camera));
+    Shot::of(scene).size(96, 54).with("lights=64 rsm=128")
+}
+
+#[test]
+fn scenes_by_others_on_lavapipe() {
+    let Some(root) = assets("scenes", "parity of scenes by others") else {
+        return;
+    };
+    let mut count = 0;
+    for folder in std::fs::read_dir(root).expect("the scenes") {
+        let Ok(files) = std::fs::read_dir(folder.expect("a folder").path()) else {
+            continue;
+        };
+        let is_scene = |path: &PathBuf| path.extension().is_some_and(|e| e == "glb" || e == "gltf");
+        let mut files = files.map(|file| file.expect("a file").path());
+        if let Some(file) = files.find(is_scene) {
+            let (name, shot) = (file.display().to_string(), from_a_corner(&file));
+            agree(&name, &shot, Tier::Lavapipe, true);
+            agree(&name, &shot, Tier::Lavapipe, false);
+            count += 1;
+        }
+    }
+    assert!(count >= 10, "only {count} scenes were found");
 }
 
 #[test]
