@@ -277,6 +277,15 @@ impl Context {
         self.kernels.made()
     }
 
+    /// Makes sure that a few more passes can be timed.
+    pub(crate) fn make_room_for_times(&self) -> Result<()> {
+        let made = self
+            .timer
+            .as_ref()
+            .map_or(Ok(()), |timer| timer.make_room(&self.device, &self.queue));
+        made.map_err(|problem| self.error(problem, "try again, or use `--backend cpu`"))
+    }
+
     pub(crate) fn timer(&self) -> Option<&Timer> {
         self.timer.as_ref()
     }

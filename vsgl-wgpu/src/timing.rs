@@ -5,8 +5,10 @@ use std::sync::Mutex;
 use std::time::Duration;
 use vsgl_core::render::Phase;
 
-/// Passes that are timed between two questions; later ones are not.
+/// Passes that can wait for their times to be read. Of a host's frame with more, the later ones are not timed.
 const PASSES_MAX: u32 = 512;
+/// A phase of ours never has so many passes in one submission.
+const PASSES_SPARE: u32 = 8;
 
 /// Where times come from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,8 +32,10 @@ pub struct Timings {
 #[derive(Debug)]
 pub(crate) struct Timer {
     queries: Option<Queries>,
+    /// Passes whose times wait on the device.
     passes: Mutex<Vec<Phase>>,
-    wall: Mutex<Vec<(Phase, Duration)>>,
+    /// Times that are known.
+    known: Mutex<Vec<(Phase, Duration)>>,
 }
 
 #[derive(Debug)]
@@ -72,7 +76,7 @@ impl Timer {
         Self {
             queries: has.then(|| Queries::new(device, queue)),
             passes: Mutex::default(),
-            wall: Mutex::default(),
+            known: Mutex::default(),
         }
     }
 
@@ -101,9 +105,32 @@ impl Timer {
 
     /// Adds time by the host's clock.
     pub(crate) fn add_wall(&self, phase: Phase, time: Duration) {
-        if let Ok(mut wall) = self.wall.lock() {
-            wall.push((phase, time));
+        if let Ok(mut known) = self.known.lock() {
+            known.push((phase, time));
         }
+    }
+
+    /// Brings times to the host if hardly more passes can wait. Waits for the device then.
+    pub(crate) fn make_room(
+        &self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+    ) -> Result<(), String> {
+        let waiting = self.passes.lock().map_err(|e| e.to_string())?.len() as u32;
+        if waiting + PASSES_SPARE > PASSES_MAX {
+            self.collect(device, queue)?;
+        }
+        Ok(())
+    }
+
+    fn collect(&self, device: &wgpu::Device, queue: &wgpu::Queue) -> Result<(), String> {
+        if let Some(queries) = &self.queries {
+            let passes = std::mem::take(&mut *self.passes.lock().map_err(|e| e.to_string())?);
+            let spans = queries.read(device, queue, passes.len() as u32)?;
+            let mut known = self.known.lock().map_err(|e| e.to_string())?;
+            known.extend(passes.into_iter().zip(spans));
+        }
+        Ok(())
     }
 
     /// All times since the last question. What was recorded must have been submitted.
@@ -112,14 +139,8 @@ impl Timer {
         device: &wgpu::Device,
         queue: &wgpu::Queue,
     ) -> Result<Timings, String> {
-        let times = match &self.queries {
-            None => std::mem::take(&mut *self.wall.lock().map_err(|e| e.to_string())?),
-            Some(queries) => {
-                let passes = std::mem::take(&mut *self.passes.lock().map_err(|e| e.to_string())?);
-                let spans = queries.read(device, queue, passes.len() as u32)?;
-                passes.into_iter().zip(spans).collect()
-            }
-        };
+        self.collect(device, queue)?;
+        let times = std::mem::take(&mut *self.known.lock().map_err(|e| e.to_string())?);
         let mut order: Vec<Phase> = Vec::new();
         let mut sums: HashMap<Phase, Duration> = HashMap::new();
         for (phase, time) in times {
