@@ -17,7 +17,7 @@ use vsgl_core::data::SceneData;
 use vsgl_core::plan::Plan;
 use vsgl_core::render::{View, render};
 use vsgl_core::settings::Settings;
-use vsgl_tests::gpu::any;
+use vsgl_tests::gpu::drawing;
 use vsgl_wgpu::interop::{Bounce, Export, host_plan};
 use vsgl_wgpu::wgpu::{self, TextureFormat as Format, TextureUsages as Usages};
 use vsgl_wgpu::{Context, WgpuBackend, WgpuOptions};
@@ -28,10 +28,9 @@ const MAP: u32 = 32;
 /// One host at a time; none on a machine without adapters, which is counted.
 fn host() -> Option<(MutexGuard<'static, ()>, Host, WgpuBackend)> {
     static ONE: Mutex<()> = Mutex::new(());
-    // Only to know whether there is any.
-    drop(any(false, "embed")?);
+    let name = drawing(false, "embedding")?.context().info().name.clone();
     let one = ONE.lock().unwrap_or_else(PoisonError::into_inner);
-    let host = Host::new(SIZE.0, SIZE.1, MAP).expect("an adapter");
+    let host = Host::new(&name, SIZE.0, SIZE.1, MAP).expect("the adapter was listed");
     let context = Context::new(
         host.device.clone(),
         host.queue.clone(),

@@ -11,7 +11,7 @@ use vsgl_core::render::View;
 use vsgl_core::scene::samples::NAMES;
 use vsgl_core::settings::Primary;
 use vsgl_cpu::CpuBackend;
-use vsgl_tests::gpu::any;
+use vsgl_tests::gpu::drawing;
 use vsgl_tests::render::Shot;
 use vsgl_wgpu::WgpuBackend;
 
@@ -180,7 +180,7 @@ fn clipped(corners: &[DVec3], near: f64) -> Vec<DVec3> {
 
 #[test]
 fn ids_differ_along_edges_alone_and_values_nowhere() {
-    let Some(backend) = any(true, "raster") else {
+    let Some(backend) = drawing(true, "raster") else {
         return;
     };
     for name in NAMES {
@@ -191,7 +191,7 @@ fn ids_differ_along_edges_alone_and_values_nowhere() {
 
 #[test]
 fn samples_lie_where_those_of_rays_do() {
-    let Some(backend) = any(true, "raster") else {
+    let Some(backend) = drawing(true, "raster") else {
         return;
     };
     // Sizes that no number divides, several samples a pixel, and pixels left out.
@@ -229,7 +229,7 @@ fn with_a_triangle_at_the_lens() -> Shot {
 
 #[test]
 fn what_is_nearer_than_the_near_plane_is_not_drawn() {
-    let Some(backend) = any(true, "raster") else {
+    let Some(backend) = drawing(true, "raster") else {
         return;
     };
     let shot = with_a_triangle_at_the_lens();
@@ -246,7 +246,7 @@ fn what_is_nearer_than_the_near_plane_is_not_drawn() {
 
 #[test]
 fn where_samples_lie_on_no_grid_rays_are_taken() {
-    let Some(backend) = any(true, "raster") else {
+    let Some(backend) = drawing(true, "raster") else {
         return;
     };
     let mut shot = with_a_triangle_at_the_lens();
@@ -257,7 +257,7 @@ fn where_samples_lie_on_no_grid_rays_are_taken() {
 
 #[test]
 fn of_equal_depths_the_lower_id_stays() {
-    let Some(backend) = any(true, "raster") else {
+    let Some(backend) = drawing(true, "raster") else {
         return;
     };
     let mut shot = Shot::sample("cornell").size(160, 90);
@@ -278,7 +278,7 @@ fn of_equal_depths_the_lower_id_stays() {
 
 #[test]
 fn a_scene_without_triangles_shows_none() {
-    let Some(backend) = any(true, "raster") else {
+    let Some(backend) = drawing(true, "raster") else {
         return;
     };
     let mut shot = Shot::sample("cornell");
@@ -303,7 +303,7 @@ fn the_cpu_and_pictures_beyond_a_texture_are_refused() {
         e.to_string()
     };
     assert!(words(refused.expect_err("no rasteriser")).contains("wgpu"));
-    let Some(backend) = any(false, "raster") else {
+    let Some(backend) = drawing(false, "raster") else {
         return;
     };
     let scene = backend.upload(data).expect("room");

@@ -96,3 +96,14 @@ pub fn any(strict: bool, tests: &str) -> Option<MutexGuard<'static, WgpuBackend>
     let tier = present().first().map_or(Tier::Lavapipe, |(tier, _)| *tier);
     device(tier, strict, tests)
 }
+
+/// A device whose rasteriser is as fine as tests of what is drawn take for granted: lavapipe, else a real GPU. SwiftShader
+/// snaps corners to a sixteenth of a pixel, so that ids along edges differ too much from those of rays.
+///
+/// # Panics
+/// As [`device`].
+pub fn drawing(strict: bool, tests: &str) -> Option<MutexGuard<'static, WgpuBackend>> {
+    let fine = [Tier::Lavapipe, Tier::Hardware];
+    fine.into_iter()
+        .find_map(|tier| device(tier, strict, tests))
+}

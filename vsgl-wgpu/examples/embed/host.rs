@@ -32,11 +32,14 @@ pub(crate) struct Host {
 }
 
 impl Host {
-    /// A device of its own, and a picture of this size; the lamp's map has `map` texels along a side.
-    pub(crate) fn new(width: u32, height: u32, map: u32) -> Result<Self> {
+    /// A device of its own on the first adapter whose name holds `wanted`, and a picture of this size; the lamp's map has
+    /// `map` texels along a side.
+    pub(crate) fn new(wanted: &str, width: u32, height: u32, map: u32) -> Result<Self> {
         let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
-        let adapter =
-            pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default()))?;
+        let all = pollster::block_on(instance.enumerate_adapters(wgpu::Backends::PRIMARY));
+        let mut all = all.into_iter();
+        let adapter = all.find(|adapter| adapter.get_info().name.contains(wanted));
+        let adapter = adapter.ok_or("no adapter")?;
         let (device, queue) =
             pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor::default()))?;
         let module = device.create_shader_module(wgpu::include_wgsl!("host.wgsl"));

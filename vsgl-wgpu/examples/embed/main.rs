@@ -19,7 +19,7 @@ use vsgl_wgpu::{Context, WgpuOptions};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let path = std::env::args().nth(1).unwrap_or("embed.png".into());
-    let host = host::Host::new(320, 180, 128)?;
+    let host = host::Host::new("", 320, 180, 128)?;
     let vsgl = Context::new(
         host.device.clone(),
         host.queue.clone(),
