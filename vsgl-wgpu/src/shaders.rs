@@ -26,6 +26,7 @@ pub const MODULES: &[(&str, &str)] = modules![
     "data/partition",
     "data/point_sender",
     "data/scan",
+    "data/scan_counts",
     "data/scene",
     "data/view",
     "data/vsgls",

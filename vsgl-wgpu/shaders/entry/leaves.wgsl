@@ -1,4 +1,4 @@
-//! needs: data/index, data/partition, data/scan
+//! needs: data/index, data/partition, data/scan_counts
 // After the rounds of the partition: clusters are numbered by where their ranges of the list begin. Twin of `Tree::sets` in
 // `vsgl-cpu/src/phase/partition.rs`.
 
@@ -38,23 +38,9 @@ fn begins_at(i: u32) -> bool {
 // One workgroup: the blocks' running sum in place of their counts, and the number of clusters.
 @compute @workgroup_size(SCAN)
 fn numbers(@builtin(local_invocation_index) local: u32) {
-    let blocks = blocks_of(state.texels, SCAN);
-    let chunk = blocks_of(blocks, SCAN);
-    let first = min(local * chunk, blocks);
-    let end = min(first + chunk, blocks);
-    var own = 0u;
-    for (var b = first; b < end; b += 1u) {
-        own += count[b];
-    }
-    let scanned = scan_group(local, own);
-    var passed = scanned.before;
-    for (var b = first; b < end; b += 1u) {
-        let here = count[b];
-        count[b] = passed;
-        passed += here;
-    }
+    let total = scan_counts(local, blocks_of(state.texels, SCAN));
     if local == 0u {
-        clusters[0] = scanned.total;
+        clusters[0] = total;
     }
 }
 

@@ -1,4 +1,4 @@
-//! needs: data/index, data/partition, data/scan, math/vec
+//! needs: data/index, data/partition, data/scan_counts, math/vec
 // Before the rounds of the partition: weights, the list of lit texels, and a node for each map. Twin of `Tree::new` in
 // `vsgl-cpu/src/phase/partition.rs`.
 
@@ -57,23 +57,9 @@ fn places(
 // One workgroup: the blocks' running sum in place of their counts.
 @compute @workgroup_size(SCAN)
 fn lit(@builtin(local_invocation_index) local: u32) {
-    let blocks = blocks_of(params.texels, SCAN);
-    let chunk = blocks_of(blocks, SCAN);
-    let first = min(local * chunk, blocks);
-    let end = min(first + chunk, blocks);
-    var own = 0u;
-    for (var b = first; b < end; b += 1u) {
-        own += count[b];
-    }
-    let scanned = scan_group(local, own);
-    var passed = scanned.before;
-    for (var b = first; b < end; b += 1u) {
-        let here = count[b];
-        count[b] = passed;
-        passed += here;
-    }
+    let total = scan_counts(local, blocks_of(params.texels, SCAN));
     if local == 0u {
-        state.lit = scanned.total;
+        state.lit = total;
     }
 }
 

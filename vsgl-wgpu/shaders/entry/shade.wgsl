@@ -152,7 +152,10 @@ fn vsgls(
     var total = sums_before(i);
     if triangle[i] != NO_TRIANGLE {
         let seen = receiver_at(i);
-        let origin = origin_at(i, seen.position);
+        var origin = vec3(0.0);
+        if RAYS {
+            origin = origin_at(i, seen.position);
+        }
         var surface: GlossyView;
         if GLOSSY_RECEIVERS {
             surface = glossy_view_new(seen.view, seen.normal, seen.alpha);
@@ -190,7 +193,10 @@ fn vpls(
     var total = sums_before(i);
     if triangle[i] != NO_TRIANGLE {
         let seen = receiver_at(i);
-        let origin = origin_at(i, seen.position);
+        var origin = vec3(0.0);
+        if RAYS {
+            origin = origin_at(i, seen.position);
+        }
         for (var j = params.first_light; j < params.end_light; j++) {
             let light = sender_at(j);
             if !light.lit {
