@@ -17,7 +17,7 @@ pub use facts::SceneFacts;
 pub use light::{Light, SpotLight};
 pub use material::{Filter, Material, Texture, TextureRef, Wrap};
 
-use glam::{DVec3, Vec2, Vec3};
+use glam::{DVec3, Vec2, Vec3, Vec4};
 
 /// Triangles, materials, lights and cameras.
 #[derive(Clone, Debug, Default)]
@@ -58,7 +58,7 @@ impl Scene {
 
 /// Indexed triangles of all objects, already placed in the scene.
 ///
-/// `positions`, `normals` and `texcoords` run side by side; so do `triangles` and `material`.
+/// The vectors of vertices run side by side where they are not empty; so do `triangles` and `material`.
 #[derive(Clone, Debug, Default)]
 pub struct Mesh {
     /// Vertex positions relative to [`Scene::origin`] \[m\].
@@ -67,6 +67,14 @@ pub struct Mesh {
     pub normals: Vec<Vec3>,
     /// Texture coordinates, one a vertex; empty where no material has a texture.
     pub texcoords: Vec<Vec2>,
+    /// A second set of texture coordinates, one a vertex; empty where no material reads it.
+    pub texcoords_second: Vec<Vec2>,
+    /// Unit tangents along increasing u of the texture coordinates of the normal map, w: +1 or -1, the sign of the
+    /// bitangent `w (normal × tangent)`. One a vertex; empty where no material has a normal map or anisotropy.
+    pub tangents: Vec<Vec4>,
+    /// Linear colours, red, green, blue, alpha, that base colours are multiplied by; one a vertex. Empty where no
+    /// object has them.
+    pub colors: Vec<Vec4>,
     /// Vertex indices of each triangle.
     pub triangles: Vec<[u32; 3]>,
     /// Index into [`Scene::materials`] of each triangle.
