@@ -395,6 +395,11 @@ fn filtered() -> Vec<Entry> {
         .by(&format!(
             "filtered_view_reflected_density({REFLECTION}, x3, x4)"
         )),
+        entry(FILE, "filtered_view_density", &one, move |a| {
+            reflected(a).density(a.v(3), a.f(4))
+        })
+        .by(&format!("filtered_view_density({REFLECTION}, x3, x4)"))
+        .scale(move |a| reflected(a).reflected_density(a.v(3), a.f(4))),
         entry(
             FILE,
             "filtered_view_refracted_density",

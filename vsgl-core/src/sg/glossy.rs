@@ -94,6 +94,27 @@ pub(super) struct Blur {
     pub(super) own: f32,
 }
 
+/// What the density of a wider GGX is multiplied by to give a Gaussian core on the tail of the unblurred surface, see
+/// [`GlossyView::density`].
+///
+/// `unblurred` is the ratio of the unblurred to the blurred mean `alpha²`, `root` the blurred one, `slope` one plus the
+/// squared slope of the half vector in units of the blurred roughness.
+#[inline(always)]
+pub(super) fn core_on_tail(unblurred: f32, root: f32, slope: f32) -> f32 {
+    let tail = (unblurred + (1.0 - unblurred) * (root * root)).min(1.0);
+    let core = 1.0 - tail;
+    // Fit of the core's sharpness: from 0.57 for the slightest blur to 1, a Gaussian, for the strongest.
+    let core2 = core * core;
+    let core4 = core2 * core2;
+    let core8 = core4 * core4;
+    let core16 = core8 * core8;
+    let sharp = CORE_SLIGHT + CORE_LINEAR * core + CORE_STRONG * (core16 * core16);
+    // Relative to the wider GGX, of which `slope` is 1 + q. Both vanish at half vectors in the surface.
+    let slope = slope.min(1e12);
+    let gaussian = sharp * exp(sharp - sharp * slope) * (slope * slope);
+    tail + core * gaussian
+}
+
 impl GlossyView {
     /// For a surface with unit `normal` and roughness `alpha` (raised to [`ALPHA_MIN`], at most 1), seen from `view`.
     #[inline(always)]
@@ -205,19 +226,7 @@ impl GlossyView {
     #[must_use]
     pub fn density(&self, axis: Vec3, sharpness: f32) -> f32 {
         let blur = self.blur(axis, sharpness);
-        let unblurred = self.alpha2 / blur.root;
-        let tail = (unblurred + (1.0 - unblurred) * (blur.root * blur.root)).min(1.0);
-        let core = 1.0 - tail;
-        // Fit of the core's sharpness: from 0.57 for the slightest blur to 1, a Gaussian, for the strongest.
-        let core2 = core * core;
-        let core4 = core2 * core2;
-        let core8 = core4 * core4;
-        let core16 = core8 * core8;
-        let sharp = CORE_SLIGHT + CORE_LINEAR * core + CORE_STRONG * (core16 * core16);
-        // Relative to the wider GGX, of which `slope` is 1 + q. Both vanish at half vectors in the surface.
-        let slope = blur.slope.min(1e12);
-        let gaussian = sharp * exp(sharp - sharp * slope) * (slope * slope);
-        (tail + core * gaussian) * blur.density
+        core_on_tail(self.alpha2 / blur.root, blur.root, blur.slope) * blur.density
     }
 
     /// The lobe of light that is reflected: the surface's own wide lobe times the light's. Returns sharpness and the

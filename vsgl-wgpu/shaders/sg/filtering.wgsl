@@ -1,4 +1,4 @@
-//! needs: sg/cosine, sg/hemisphere, sg/lobe
+//! needs: sg/cosine, sg/glossy, sg/hemisphere, sg/lobe
 // NDF filtering in a tangent frame, anisotropic, and refraction: twin of `vsgl-core/src/sg/filtering.rs`.
 
 struct FilteredView {
@@ -109,6 +109,19 @@ fn filtered_view_reflected_density(own: FilteredView, axis: vec3<f32>, sharpness
     return shape / (4.0 * PI * filtered_view_area(own, f));
 }
 
+fn filtered_view_density(own: FilteredView, axis: vec3<f32>, sharpness: f32) -> f32 {
+    let f = filtered_view_filter(own, sharpness);
+    let half = own.view + axis;
+    let length2 = dot(half, half);
+    let form = filtered_view_half_form(own, f, half);
+    let root = sqrt(f.determinant);
+    let density = root * (f.determinant * length2 / form) * (length2 / form)
+        / (4.0 * PI * filtered_view_area(own, f));
+    let level = max(f.determinant * (half.z * half.z), F32_MIN_POSITIVE);
+    let unblurred = sqrt(own.ax * own.ay) / max(root, F32_MIN_POSITIVE);
+    return glossy_core_on_tail(unblurred, root, form / level) * density;
+}
+
 fn filtered_view_refracted_density(own: FilteredView, axis: vec3<f32>, sharpness: f32, index: f32) -> f32 {
     let f = filtered_view_filter(own, sharpness);
     let half = own.view + axis * index;
@@ -146,7 +159,7 @@ fn filtered_view_filtered_2024(own: FilteredView, axis: vec3<f32>, sharpness: f3
 
 fn filtered_view_masked(own: FilteredView, axis: vec3<f32>, sharpness: f32, horizon_sharpness: f32) -> f32 {
     return filtered_view_shares(own, axis, horizon_sharpness, 1.0).y
-        * filtered_view_reflected_density(own, axis, sharpness);
+        * filtered_view_density(own, axis, sharpness);
 }
 
 fn filtered_view_transmitted_2024(own: FilteredView, axis: vec3<f32>, sharpness: f32, index: f32) -> f32 {

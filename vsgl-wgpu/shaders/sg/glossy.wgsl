@@ -87,23 +87,26 @@ fn glossy_view_blur(own: GlossyView, axis: vec3<f32>, sharpness: f32) -> Blur {
     return Blur(density, root, form / level, sqrt(own.det[2] * k * k / det_above));
 }
 
-fn glossy_view_density_2024(own: GlossyView, axis: vec3<f32>, sharpness: f32) -> f32 {
-    return glossy_view_blur(own, axis, sharpness).density;
-}
-
-fn glossy_view_density(own: GlossyView, axis: vec3<f32>, sharpness: f32) -> f32 {
-    let blur = glossy_view_blur(own, axis, sharpness);
-    let unblurred = own.alpha2 / blur.root;
-    let tail = min(unblurred + (1.0 - unblurred) * (blur.root * blur.root), 1.0);
+fn glossy_core_on_tail(unblurred: f32, root: f32, steepness: f32) -> f32 {
+    let tail = min(unblurred + (1.0 - unblurred) * (root * root), 1.0);
     let core = 1.0 - tail;
     let core2 = core * core;
     let core4 = core2 * core2;
     let core8 = core4 * core4;
     let core16 = core8 * core8;
     let sharp = CORE_SLIGHT + CORE_LINEAR * core + CORE_STRONG * (core16 * core16);
-    let slope = min(blur.slope, 1e12);
+    let slope = min(steepness, 1e12);
     let gaussian = sharp * elementary_exp(sharp - sharp * slope) * (slope * slope);
-    return (tail + core * gaussian) * blur.density;
+    return tail + core * gaussian;
+}
+
+fn glossy_view_density_2024(own: GlossyView, axis: vec3<f32>, sharpness: f32) -> f32 {
+    return glossy_view_blur(own, axis, sharpness).density;
+}
+
+fn glossy_view_density(own: GlossyView, axis: vec3<f32>, sharpness: f32) -> f32 {
+    let blur = glossy_view_blur(own, axis, sharpness);
+    return glossy_core_on_tail(own.alpha2 / blur.root, blur.root, blur.slope) * blur.density;
 }
 
 // Sharpness and cosine.
