@@ -68,6 +68,7 @@ pub const MODULES: &[(&str, &str)] = modules![
     "phase/surface",
     "phase/texture",
     "phase/unit",
+    "sg/anisotropic",
     "sg/asg",
     "sg/cosine",
     "sg/extent",

@@ -6,6 +6,7 @@ use vsgl_core::brdf::albedo::{Albedo, ggx_albedo};
 use vsgl_core::brdf::gltf::Surface;
 use vsgl_core::brdf::roughness::Roughness;
 use vsgl_core::brdf::{beckmann, fresnel, ggx, ggx_local};
+use vsgl_core::sg::anisotropic::{self, AnisotropicView, Frame};
 use vsgl_core::sg::filtering::{self, FilteredView};
 use vsgl_core::sg::glossy::{self, GlossyView};
 use vsgl_core::sg::{glossy_blend, lobe, warp};
@@ -18,6 +19,7 @@ pub(super) fn entries() -> Vec<Entry> {
     all.extend(views());
     all.extend(blended_and_warped());
     all.extend(filtered());
+    all.extend(anisotropic());
     all
 }
 
@@ -439,5 +441,59 @@ fn filtered() -> Vec<Entry> {
             filtering::filtered_2024(a.v(0), a.f(1), a.f(2), a.v(3), a.f(4))
         })
         .scale(move |a| reflected(a).reflected_density(a.v(3), a.f(4)) * lobe::integral(a.f(4))),
+    ]
+}
+
+fn anisotropic() -> Vec<Entry> {
+    const FILE: &str = "sg/anisotropic";
+    // View, normal, tangent, roughnesses, then the light.
+    let one = [Unit, Unit, Unit, AnyAlpha, AnyAlpha, Unit, Sharpness];
+    let seen = |a: &Arguments<'_>| AnisotropicView::new(a.v(0), a.v(1), a.v(2), a.f(3), a.f(4));
+    let frame = |a: &Arguments<'_>, n: usize, t: usize| Frame::new(a.v(n), a.v(t));
+    // What a local vector's rounding is magnified by is a share of the density at the sharpest.
+    let size = move |a: &Arguments<'_>| {
+        let frame = Frame::new(a.v(1), a.v(2));
+        FilteredView::reflection(frame.local(a.v(0)), a.f(3), a.f(4))
+            .reflected_density(frame.local(a.v(5)), a.f(6))
+    };
+    const VIEW: &str = "anisotropic_view_new(x0, x1, x2, x3, x4)";
+    vec![
+        entry(FILE, "frame_local", &[Unit, Unit, Unit], move |a| {
+            frame(a, 0, 1).local(a.v(2))
+        })
+        .by("frame_local(frame_new(x0, x1), x2)")
+        .scale(|_| 1.0),
+        entry(FILE, "anisotropic_view_masked", &one, move |a| {
+            seen(a).masked(a.v(5), a.f(6), a.f(6))
+        })
+        .by(&format!("anisotropic_view_masked({VIEW}, x5, x6, x6)"))
+        .scale(size),
+        entry(FILE, "anisotropic_view_filtered_2024", &one, move |a| {
+            seen(a).filtered_2024(a.v(5), a.f(6))
+        })
+        .by(&format!("anisotropic_view_filtered_2024({VIEW}, x5, x6)"))
+        .scale(size),
+        entry(
+            FILE,
+            "anisotropic_reflectance",
+            &[Unit, Unit, Unit, Unit, AnyAlpha, AnyAlpha],
+            move |a| anisotropic::reflectance(a.v(0), a.v(1), &frame(a, 2, 3), a.f(4), a.f(5)),
+        )
+        .by("anisotropic_reflectance(x0, x1, frame_new(x2, x3), x4, x5)"),
+        entry(FILE, "anisotropic_glossy_asg", &one, move |a| {
+            anisotropic::glossy_asg(a.v(0), &frame(a, 1, 2), a.f(3), a.f(4), a.v(5), a.f(6))
+        })
+        .by("anisotropic_glossy_asg(x0, frame_new(x1, x2), x3, x4, x5, x6)"),
+        entry(FILE, "anisotropic_turn_of", &[Unit, Unit], |a| {
+            anisotropic::turn_of(a.v(0), a.v(1))
+        })
+        .scale(|_| 1.0),
+        entry(
+            FILE,
+            "anisotropic_tangent_of",
+            &[Unit, Even(-1.0, 1.0)],
+            |a| anisotropic::tangent_of(a.v(0), a.f(1)),
+        )
+        .scale(|_| 1.0),
     ]
 }

@@ -4,6 +4,7 @@
 //! 0 to `f32::MAX`; above [`SHARPNESS_MAX`] it counts as [`SHARPNESS_MAX`]. Directions are unit vectors, and cosines
 //! lie in [-1, 1]. Results are finite and not negative (logarithms aside).
 
+pub mod anisotropic;
 pub mod asg;
 pub mod cosine;
 pub mod extent;
