@@ -142,18 +142,8 @@ const EXPECTED: &[(&str, Expected)] = &[
         Warned("points and lines"),
     ),
     (
-        "khronos/SimpleInstancing/SimpleInstancing.glb",
-        Warned("EXT_mesh_gpu_instancing"),
-    ),
-    (
         "khronos/InterpolationTest/InterpolationTest.glb",
         Warned("animations"),
-    ),
-    ("khronos/SimpleSkin/SimpleSkin.gltf", Warned("skins")),
-    ("khronos/RiggedSimple/RiggedSimple.glb", Warned("skins")),
-    (
-        "khronos/RecursiveSkeletons/RecursiveSkeletons.glb",
-        Warned("skins"),
     ),
     (
         "khronos/ClearCoatTest/ClearCoatTest.glb",
@@ -179,22 +169,6 @@ const EXPECTED: &[(&str, Expected)] = &[
     (
         "khronos/Cameras/Cameras.gltf",
         NotYet("not perspective", "no orthographic cameras"),
-    ),
-    (
-        "khronos/SimpleMorph/SimpleMorph.gltf",
-        NotYet("morph", "morph targets are ignored"),
-    ),
-    (
-        "khronos/MorphPrimitivesTest/MorphPrimitivesTest.glb",
-        NotYet("morph", "morph targets are ignored"),
-    ),
-    (
-        "khronos/AnimatedMorphCube/AnimatedMorphCube.glb",
-        NotYet("morph", "morph targets are ignored"),
-    ),
-    (
-        "khronos/AnimatedMorphCube-Quantized/AnimatedMorphCube.gltf",
-        NotYet("morph", "morph targets are ignored"),
     ),
     (
         "khronos/BoxVertexColors/BoxVertexColors.glb",
@@ -275,7 +249,6 @@ const EXPECTED: &[(&str, Expected)] = &[
 /// Warnings that the rest may have: they are not what these files are for.
 const INCIDENTAL: &[&str] = &[
     "animations are ignored",
-    "skins are ignored",
     "vertex colours are ignored",
     "normal maps are ignored",
     "extension `KHR_materials_pbrSpecularGlossiness` is ignored",
@@ -351,10 +324,14 @@ pub(crate) fn check(scene: &Scene, name: &str) {
     let vertices = mesh.positions.len();
     assert_eq!(mesh.normals.len(), vertices, "{name}");
     assert_eq!(mesh.triangles.len(), mesh.material.len(), "{name}");
-    assert!(
-        mesh.texcoords.is_empty() || mesh.texcoords.len() == vertices,
-        "{name}"
-    );
+    for side in [
+        mesh.texcoords.len(),
+        mesh.texcoords_second.len(),
+        mesh.tangents.len(),
+        mesh.colors.len(),
+    ] {
+        assert!(side == 0 || side == vertices, "{name}");
+    }
     assert!(
         mesh.triangles
             .as_flattened()

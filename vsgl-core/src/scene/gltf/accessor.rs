@@ -42,6 +42,12 @@ impl<'a, const N: usize> Vectors<'a, N> {
         })
     }
 
+    /// The same with integers as shares of their range, as colours and weights are, whatever the accessor says.
+    pub(super) fn as_shares(mut self) -> Self {
+        self.normalized = true;
+        self
+    }
+
     /// Number of elements.
     pub(super) fn len(&self) -> usize {
         self.elements.count
@@ -54,6 +60,20 @@ impl<'a, const N: usize> Vectors<'a, N> {
             Err(_) => vector(&self.elements, index as usize, self.normalized),
         }
     }
+}
+
+/// How many components an element of accessor `index` has; none for a type that glTF 2.0 does not have.
+pub(super) fn component_count(
+    document: &Document,
+    index: Index<Accessor>,
+    place: impl FnOnce() -> String,
+) -> Result<Option<usize>> {
+    let accessors = &document.root.accessors;
+    let accessor = lookup(accessors, "accessors", index.value(), place)?;
+    Ok(match accessor.type_ {
+        Checked::Valid(kind) => Some(kind.multiplicity()),
+        Checked::Invalid => None,
+    })
 }
 
 /// An accessor of indices.
@@ -296,7 +316,8 @@ fn check_type<const N: usize>(accessor: &Accessor, here: &str) -> Result<()> {
         1 => (Type::Scalar, "SCALAR"),
         2 => (Type::Vec2, "VEC2"),
         3 => (Type::Vec3, "VEC3"),
-        _ => (Type::Vec4, "VEC4"),
+        4 => (Type::Vec4, "VEC4"),
+        _ => (Type::Mat4, "MAT4"),
     };
     if accessor.type_ == Checked::Valid(expected) {
         return Ok(());

@@ -3,13 +3,18 @@
 use super::buffers::Buffers;
 use super::document::{Document, lookup};
 use super::fault::{Fault, Result};
+use super::frames::{Frame, Frames, Turn};
+use super::instancing::Copies;
 use super::limits::Limits;
 use super::materials::Materials;
-use super::nodes::{LARGEST, Placed};
-use super::primitive::{Primitive, Reader, check_triangles, check_vertices, cross};
+use super::nodes::{LARGEST, Placed, Tree};
+use super::primitive::{Form, Primitive, Reader, check_triangles, check_vertices, cross};
+use super::skins::{Influences, Skins};
 use super::warnings::Warnings;
 use crate::scene::{Material, Mesh};
-use glam::{DMat3, DMat4, DVec3, Vec2, Vec3};
+use glam::{DMat4, DVec3, Vec2, Vec3, Vec4};
+use gltf::json::Node;
+use std::collections::HashMap;
 
 /// What the meshes of the file come to.
 pub(super) struct Geometry {
@@ -25,88 +30,146 @@ pub(super) struct Geometry {
 /// Smallest half extent that is accepted \[m\], for the same reason as [`LARGEST`].
 const SMALLEST: f64 = 1e-9;
 
-/// Reads every mesh that a node shows, once, and places its instances.
+/// Reads every mesh that a node shows, once for each form that it has, and places its instances.
 pub(super) fn geometry(
     document: &Document,
     buffers: &Buffers<'_>,
-    placed: &[Placed<'_>],
+    tree: &Tree<'_>,
     limits: &Limits,
     warnings: &mut Warnings,
 ) -> Result<Geometry> {
-    let mut reader = Reader {
-        document,
-        buffers,
-        materials: Materials::new(document),
-        limits,
-        triangles: 0,
-        vertices: 0,
+    let mut forms = Forms {
+        reader: Reader {
+            document,
+            buffers,
+            materials: Materials::new(document),
+            limits,
+            triangles: 0,
+            vertices: 0,
+            displacements: 0,
+        },
+        places: HashMap::new(),
+        read: Vec::new(),
     };
-    let mut meshes: Vec<Option<Vec<Primitive>>> = Vec::new();
-    meshes.resize_with(document.root.meshes.len(), || None);
-    let mut instances: Vec<(usize, &Placed<'_>)> = Vec::new();
-    for place in placed {
+    let mut skins = Skins::new(document, buffers, limits, &tree.worlds);
+    let mut shown = Vec::new();
+    for place in &tree.placed {
         let Some(mesh) = place.node.mesh else {
             continue;
         };
         let at = || format!("nodes[{}].mesh", place.index);
-        let slot = mesh.value();
-        lookup(&meshes, "meshes", slot, at)?;
-        if meshes[slot].is_none() {
-            meshes[slot] = Some(read_mesh(&mut reader, slot, warnings)?);
-        }
-        instances.push((slot, place));
+        lookup(&document.root.meshes, "meshes", mesh.value(), at)?;
+        let at = || format!("nodes[{}].skin", place.index);
+        let joints = match place.node.skin {
+            Some(skin) => skins.matrices(skin.value(), at, warnings)?,
+            None => None,
+        };
+        let copies = Copies::of(document, buffers, place.node, place.index)?;
+        let form = forms.read(mesh.value(), place.node, joints.is_some(), warnings)?;
+        shown.push((form, place, joints, copies));
     }
-    let instances: Vec<Instance<'_>> = instances
-        .into_iter()
-        .flat_map(|(slot, place)| meshes[slot].iter().flatten().map(move |p| (p, place)))
-        .map(|(primitive, place)| Instance { primitive, place })
-        .collect();
+    let mut instances = Vec::new();
+    for (form, place, joints, copies) in &shown {
+        for primitive in &forms.read[*form] {
+            let frames = match (joints, &primitive.influences, copies) {
+                (Some(joints), Some(influences), _) => {
+                    check_joints(influences, joints, place)?;
+                    Frames::Bent(joints, influences)
+                }
+                (.., Some(copies)) => Frames::Many(&place.world, copies),
+                (.., None) => Frames::One(&place.world),
+            };
+            instances.push(Instance {
+                primitive,
+                node: place.index,
+                frames,
+            });
+        }
+    }
+    let size = Size::of(&instances);
+    check_triangles(size.triangles, limits, "scene")?;
+    check_vertices(size.vertices, limits, "scene")?;
     let origin = centre(&instances)?;
-    let (materials, images) = reader.materials.finish();
+    let (materials, images) = forms.reader.materials.finish();
     Ok(Geometry {
-        mesh: join(&instances, origin, limits)?,
+        mesh: join(&instances, origin, &size),
         origin,
         materials,
         images,
     })
 }
 
-fn read_mesh(
-    reader: &mut Reader<'_>,
-    index: usize,
-    warnings: &mut Warnings,
-) -> Result<Vec<Primitive>> {
-    let mesh = &reader.document.root.meshes[index];
-    let mut primitives = Vec::new();
-    for (i, primitive) in mesh.primitives.iter().enumerate() {
-        let place = format!("meshes[{index}].primitives[{i}]");
-        primitives.extend(reader.read(primitive, &place, warnings)?);
-    }
-    Ok(primitives)
+/// Meshes in the forms in which they are shown.
+struct Forms<'a> {
+    reader: Reader<'a>,
+    /// Mesh, bits of the weights of its morph targets, whether joints bend it: to its place in `read`.
+    places: HashMap<(usize, Vec<u32>, bool), usize>,
+    read: Vec<Vec<Primitive>>,
 }
 
-/// A primitive where a node puts it.
+impl Forms<'_> {
+    /// The place of mesh `index`, which exists, as `node` shows it.
+    fn read(
+        &mut self,
+        index: usize,
+        node: &Node,
+        bent: bool,
+        warnings: &mut Warnings,
+    ) -> Result<usize> {
+        let mesh = &self.reader.document.root.meshes[index];
+        let weights = node.weights.as_deref().or(mesh.weights.as_deref());
+        let weights = weights.unwrap_or_default();
+        let bits = weights.iter().map(|w| w.to_bits()).collect();
+        let key = (index, bits, bent);
+        if let Some(&known) = self.places.get(&key) {
+            return Ok(known);
+        }
+        let form = Form { weights, bent };
+        let mut primitives = Vec::new();
+        for (i, primitive) in mesh.primitives.iter().enumerate() {
+            let place = format!("meshes[{index}].primitives[{i}]");
+            primitives.extend(self.reader.read(primitive, form, &place, warnings)?);
+        }
+        self.read.push(primitives);
+        self.places.insert(key, self.read.len() - 1);
+        Ok(self.read.len() - 1)
+    }
+}
+
+fn check_joints(influences: &Influences, joints: &[DMat4], place: &Placed<'_>) -> Result<()> {
+    let Some(joint) = influences.beyond(joints.len()) else {
+        return Ok(());
+    };
+    Err(Fault::new(
+        format!("nodes[{}].skin", place.index),
+        format!(
+            "has {} joints, but a vertex of the mesh follows number {joint}",
+            joints.len()
+        ),
+        "the file is broken; export it again",
+    ))
+}
+
+/// A primitive where a node puts it, once or more often.
 struct Instance<'a> {
     primitive: &'a Primitive,
-    place: &'a Placed<'a>,
-}
-
-impl Instance<'_> {
-    fn positions(&self) -> impl Iterator<Item = DVec3> {
-        let world = self.place.world;
-        let positions = self.primitive.positions.iter();
-        positions.map(move |p| world.transform_point3(p.as_dvec3()))
-    }
+    /// Index of the node.
+    node: usize,
+    frames: Frames<'a>,
 }
 
 /// Centre of the bounds of all vertices.
 fn centre(instances: &[Instance<'_>]) -> Result<DVec3> {
     let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    for instance in instances {
-        for position in instance.positions() {
+    let frames = instances.iter().flat_map(|instance| {
+        let frames = (0..instance.frames.len()).map(|i| instance.frames.frame(i));
+        frames.map(move |frame| (instance, frame))
+    });
+    for (instance, frame) in frames {
+        for position in frame.positions(instance.primitive) {
             if !position.is_finite() {
                 return Err(Fault::new(
-                    format!("nodes[{}]", instance.place.index),
+                    format!("nodes[{}]", instance.node),
                     "moves its mesh out of the range of numbers",
                     "the file is broken; export it again",
                 ));
@@ -115,7 +178,7 @@ fn centre(instances: &[Instance<'_>]) -> Result<DVec3> {
             high = high.max(position);
         }
     }
-    if instances.is_empty() {
+    if low.x > high.x {
         return Ok(DVec3::ZERO);
     }
     let half = (high - low) * 0.5;
@@ -137,46 +200,76 @@ fn centre(instances: &[Instance<'_>]) -> Result<DVec3> {
     Ok(low + half)
 }
 
-/// One mesh of all instances, relative to `origin`.
-fn join(instances: &[Instance<'_>], origin: DVec3, limits: &Limits) -> Result<Mesh> {
-    let sum = |size: fn(&Primitive) -> usize| -> u64 {
-        instances.iter().map(|i| size(i.primitive) as u64).sum()
-    };
-    let triangles = sum(|p| p.triangles.len());
-    let vertices = sum(|p| p.positions.len());
-    check_triangles(triangles, limits, "scene")?;
-    check_vertices(vertices, limits, "scene")?;
-    let mut mesh = Mesh::default();
-    mesh.positions.reserve_exact(vertices as usize);
-    mesh.normals.reserve_exact(vertices as usize);
-    mesh.triangles.reserve_exact(triangles as usize);
-    mesh.material.reserve_exact(triangles as usize);
-    let textured = instances.iter().any(|i| !i.primitive.texcoords.is_empty());
-    if textured {
-        mesh.texcoords.reserve_exact(vertices as usize);
-    }
-    for instance in instances {
-        append(&mut mesh, instance, origin, textured);
-    }
-    Ok(mesh)
+/// What the joined mesh will hold.
+struct Size {
+    triangles: u64,
+    vertices: u64,
+    textured: bool,
+    colored: bool,
 }
 
-fn append(mesh: &mut Mesh, instance: &Instance<'_>, origin: DVec3, textured: bool) {
-    let primitive = instance.primitive;
+impl Size {
+    fn of(instances: &[Instance<'_>]) -> Self {
+        let any = |has: fn(&Primitive) -> bool| instances.iter().any(|i| has(i.primitive));
+        let sum = |size: fn(&Primitive) -> usize| {
+            let sizes = instances.iter().map(|i| {
+                let copies = i.frames.len() as u64;
+                copies.saturating_mul(size(i.primitive) as u64)
+            });
+            sizes.fold(0, u64::saturating_add)
+        };
+        Self {
+            triangles: sum(|p| p.triangles.len()),
+            vertices: sum(|p| p.positions.len()),
+            textured: any(|p| !p.texcoords.is_empty()),
+            colored: any(|p| !p.colors.is_empty()),
+        }
+    }
+}
+
+/// One mesh of all instances, relative to `origin`.
+fn join(instances: &[Instance<'_>], origin: DVec3, size: &Size) -> Mesh {
+    let (triangles, vertices) = (size.triangles as usize, size.vertices as usize);
+    let mut mesh = Mesh::default();
+    mesh.positions.reserve_exact(vertices);
+    mesh.normals.reserve_exact(vertices);
+    mesh.triangles.reserve_exact(triangles);
+    mesh.material.reserve_exact(triangles);
+    if size.textured {
+        mesh.texcoords.reserve_exact(vertices);
+    }
+    if size.colored {
+        mesh.colors.reserve_exact(vertices);
+    }
+    for instance in instances {
+        for i in 0..instance.frames.len() {
+            let frame = instance.frames.frame(i);
+            append(&mut mesh, instance.primitive, &frame, origin, size);
+        }
+    }
+    mesh
+}
+
+fn append(mesh: &mut Mesh, primitive: &Primitive, frame: &Frame<'_>, origin: DVec3, size: &Size) {
     let first = mesh.positions.len();
-    let local = instance.positions().map(|p| (p - origin).as_vec3());
+    let positions = frame.positions(primitive);
+    let local = positions.map(|p| (p - origin).as_vec3());
     mesh.positions.extend(local);
-    let (turn, mirrored) = normal_matrix(&instance.place.world);
-    let normal = |n: &Vec3| {
-        let turned = (turn * n.as_dvec3()).try_normalize();
-        turned.map_or(Vec3::ZERO, |n| n.as_vec3().normalize_or_zero())
-    };
-    mesh.normals.extend(primitive.normals.iter().map(normal));
-    if textured {
+    let count = mesh.positions.len();
+    let turn = Turn::of(frame);
+    let normals = primitive.normals.iter().enumerate();
+    mesh.normals
+        .extend(normals.map(|(v, n)| turn.at(v).normal(*n)));
+    if size.textured {
         mesh.texcoords.extend(&primitive.texcoords);
-        mesh.texcoords.resize(mesh.positions.len(), Vec2::ZERO);
+        mesh.texcoords.resize(count, Vec2::ZERO);
+    }
+    if size.colored {
+        mesh.colors.extend(&primitive.colors);
+        mesh.colors.resize(count, Vec4::ONE);
     }
     for &[a, b, c] in &primitive.triangles {
+        let mirrored = turn.at(a as usize).mirrored;
         let turned = if mirrored { [a, c, b] } else { [a, b, c] };
         let triangle = turned.map(|v| v + first as u32);
         // A scale of zero, or rounding far from the origin, may have left a line.
@@ -186,20 +279,6 @@ fn append(mesh: &mut Mesh, instance: &Instance<'_>, origin: DVec3, textured: boo
         }
     }
     fill_normals(mesh, first);
-}
-
-/// What turns normals when `world` moves points, and whether it mirrors.
-///
-/// The matrix of cofactors is the inverse transpose times the determinant, and exists where the inverse does not.
-fn normal_matrix(world: &DMat4) -> (DMat3, bool) {
-    let (x, y, z) = (
-        world.x_axis.truncate(),
-        world.y_axis.truncate(),
-        world.z_axis.truncate(),
-    );
-    let cofactors = DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y));
-    let mirrored = x.dot(y.cross(z)) < 0.0;
-    (if mirrored { -cofactors } else { cofactors }, mirrored)
 }
 
 /// Gives vertices from `first` on that have no normal the mean of their triangles', weighted by area.

@@ -7,6 +7,7 @@ use gltf::json::{Root, Value, deserialize};
 
 /// Extensions that are read, or that ask nothing of a reader.
 const SUPPORTED: &[&str] = &[
+    super::instancing::NAME,
     "KHR_lights_punctual",
     "KHR_materials_ior",
     "KHR_materials_specular",

@@ -12,6 +12,10 @@ pub struct Limits {
     pub triangles: u64,
     /// Vertices drawn, instances counted; triangles without normals have three each. 2^23.
     pub vertices: u64,
+    /// Displacements by morph targets that have a weight: one for each vertex and target. 2^25.
+    pub displacements: u64,
+    /// Joints of all skins in use. 2^16.
+    pub joints: u64,
     /// Texels of all images that materials use; those of 16 bits count twice. 2^27.
     pub texels: u64,
 }
@@ -23,6 +27,8 @@ impl Default for Limits {
             objects: 1 << 20,
             triangles: 1 << 23,
             vertices: 1 << 23,
+            displacements: 1 << 25,
+            joints: 1 << 16,
             texels: 1 << 27,
         }
     }

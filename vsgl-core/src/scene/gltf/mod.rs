@@ -10,26 +10,31 @@
 //! | `container`, `files`, `uri` | bytes: the file, files beside it, data inside it |
 //! | `document` | JSON to typed values, extensions, lookups that cannot miss |
 //! | `buffers`, `accessor` | elements of vertex attributes and indices |
-//! | `topology`, `sharing`, `primitive` | triangles of one primitive in its own space |
-//! | `nodes`, `assemble` | the tree of nodes, and all triangles in one space |
+//! | `attributes`, `morph`, `topology`, `sharing`, `primitive` | triangles of one primitive in its own space |
+//! | `nodes`, `skins`, `instancing`, `frames`, `assemble` | the tree of nodes, and all triangles in one space |
 //! | `materials`, `images` | surfaces |
 //! | `lights`, `cameras` | what stands in the nodes besides meshes |
 
 mod accessor;
 mod assemble;
+mod attributes;
 mod buffers;
 mod cameras;
 mod container;
 mod document;
 mod fault;
 mod files;
+mod frames;
 mod images;
+mod instancing;
 mod lights;
 mod limits;
 mod materials;
+mod morph;
 mod nodes;
 mod primitive;
 mod sharing;
+mod skins;
 mod topology;
 mod uri;
 mod warnings;
@@ -50,7 +55,8 @@ pub use limits::Limits;
 
 /// Reads a `.gltf` or `.glb` file with the buffers and images that it refers to.
 ///
-/// Read are triangles with normals and texture coordinates, metallic-roughness materials with their textures (PNG and
+/// Read are triangles with normals, colours and texture coordinates, moved by morph targets at their default weights
+/// and by skins at rest, copied by nodes and by `EXT_mesh_gpu_instancing`; metallic-roughness materials with their textures (PNG and
 /// JPEG), `KHR_materials_specular` and `KHR_materials_ior` (factors), `KHR_texture_transform`,
 /// `KHR_mesh_quantization`, spots of `KHR_lights_punctual`, and perspective cameras. What else a file holds is left
 /// out with a line in [`Scene::warnings`]; if the file *requires* it, it is refused. Cones wider than
@@ -78,9 +84,10 @@ fn read(path: &Path, limits: &Limits) -> fault::Result<Scene> {
     let Container { json, bin } = container::read(&files, path)?;
     let document = Document::parse(&json, limits, &mut warnings)?;
     drop(json);
-    let placed = nodes::walk(&document, &mut warnings)?;
+    let tree = nodes::walk(&document, &mut warnings)?;
+    let placed = &tree.placed;
     let buffers = Buffers::new(&document, &files, bin);
-    let geometry = assemble::geometry(&document, &buffers, &placed, limits, &mut warnings)?;
+    let geometry = assemble::geometry(&document, &buffers, &tree, limits, &mut warnings)?;
     let textures = images::decode(&document, &buffers, &files, &geometry.images, limits)?;
     let origin = geometry.origin;
     Ok(Scene {
@@ -89,8 +96,8 @@ fn read(path: &Path, limits: &Limits) -> fault::Result<Scene> {
         mesh: geometry.mesh,
         materials: geometry.materials,
         textures,
-        lights: lights::collect(&document, &placed, origin, &mut warnings)?,
-        cameras: cameras::collect(&document, &placed, origin, &mut warnings)?,
+        lights: lights::collect(&document, placed, origin, &mut warnings)?,
+        cameras: cameras::collect(&document, placed, origin, &mut warnings)?,
         warnings: warnings.into_lines(),
     })
 }

@@ -24,8 +24,26 @@ impl Placed<'_> {
     }
 }
 
-/// All nodes of the scene that hold anything, in the order of the file.
-pub(super) fn walk<'a>(document: &'a Document, warnings: &mut Warnings) -> Result<Vec<Placed<'a>>> {
+/// The nodes of the scene.
+pub(super) struct Tree<'a> {
+    /// Those that hold anything, in the order of the file.
+    pub(super) placed: Vec<Placed<'a>>,
+    /// Transforms to the world of all of them, by the index of the file; none for nodes of other scenes. Empty in a
+    /// file without skins, which alone ask for it.
+    pub(super) worlds: Vec<Option<DMat4>>,
+}
+
+/// Goes from the scene's roots to all its nodes.
+pub(super) fn walk<'a>(document: &'a Document, warnings: &mut Warnings) -> Result<Tree<'a>> {
+    let root = &document.root;
+    let mut worlds = vec![
+        None;
+        if root.skins.is_empty() {
+            0
+        } else {
+            root.nodes.len()
+        }
+    ];
     let mut seen = Seen(vec![false; document.root.nodes.len()]);
     let mut placed = Vec::new();
     // A stack of our own: depth is the file's to choose.
@@ -48,15 +66,15 @@ pub(super) fn walk<'a>(document: &'a Document, warnings: &mut Warnings) -> Resul
             seen.enter(child.value(), || format!("nodes[{index}].children"))?;
             waiting.push((child.value(), world));
         }
-        if node.skin.is_some() {
-            warnings.add("skins are ignored: meshes are shown unbent");
+        if let Some(slot) = worlds.get_mut(index) {
+            *slot = Some(world);
         }
         if node.mesh.is_some() || node.camera.is_some() || node.extensions.is_some() {
             placed.push(Placed { index, node, world });
         }
     }
     placed.sort_by_key(|p| p.index);
-    Ok(placed)
+    Ok(Tree { placed, worlds })
 }
 
 /// Which nodes have been reached.

@@ -1,18 +1,20 @@
 //! Triangles of one primitive, in the space of its mesh.
 
-use super::accessor::{Indices, Vectors};
+use super::accessor::Indices;
+use super::attributes::{Attributes, Colors};
 use super::buffers::Buffers;
 use super::document::Document;
 use super::fault::{Fault, Result};
 use super::limits::Limits;
 use super::materials::{Mapping, Materials};
+use super::morph::{Morph, Shape};
 use super::sharing::{compact, unshared};
+use super::skins::Influences;
 use super::topology::Topology;
 use super::warnings::Warnings;
-use glam::{DVec3, Vec2, Vec3};
-use gltf::json::mesh::{self, Mode, Semantic};
+use glam::{DVec3, Vec2, Vec3, Vec4};
+use gltf::json::mesh::{self, Mode, MorphTarget, Semantic};
 use gltf::json::validation::Checked;
-use gltf::json::{Accessor, Index};
 
 /// Indexed triangles with only those vertices that they use.
 pub(super) struct Primitive {
@@ -21,6 +23,10 @@ pub(super) struct Primitive {
     pub(super) normals: Vec<Vec3>,
     /// One a vertex; empty if the material needs none.
     pub(super) texcoords: Vec<Vec2>,
+    /// One a vertex; empty if the file has none.
+    pub(super) colors: Vec<Vec4>,
+    /// Joints of the vertices, if it is to be bent.
+    pub(super) influences: Option<Influences>,
     pub(super) triangles: Vec<[u32; 3]>,
     /// Index into the scene's materials.
     pub(super) material: u32,
@@ -32,9 +38,19 @@ pub(super) struct Reader<'a> {
     pub(super) buffers: &'a Buffers<'a>,
     pub(super) materials: Materials<'a>,
     pub(super) limits: &'a Limits,
-    /// Triangles and vertices that were read so far, each mesh once.
+    /// Triangles, vertices and displacements by morph targets that were read so far, each mesh once.
     pub(super) triangles: u64,
     pub(super) vertices: u64,
+    pub(super) displacements: u64,
+}
+
+/// In which form a mesh is shown.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Form<'a> {
+    /// Weights of the morph targets.
+    pub(super) weights: &'a [f32],
+    /// Whether joints bend it.
+    pub(super) bent: bool,
 }
 
 impl<'a> Reader<'a> {
@@ -42,30 +58,44 @@ impl<'a> Reader<'a> {
     pub(super) fn read(
         &mut self,
         primitive: &mesh::Primitive,
+        form: Form<'_>,
         place: &str,
         warnings: &mut Warnings,
     ) -> Result<Option<Primitive>> {
         let Some(topology) = topology(primitive, place, warnings)? else {
             return Ok(None);
         };
-        let Some(positions) = self.vectors::<3>(primitive, Semantic::Positions, place)? else {
+        let attributes = Attributes {
+            document: self.document,
+            buffers: self.buffers,
+            primitive,
+            place,
+        };
+        let Some(positions) = attributes.get::<3>(Semantic::Positions)? else {
             warnings.add("primitives without positions are left out");
             return Ok(None);
         };
-        note_ignored(primitive, warnings);
+        let morph = Morph::new(attributes, form.weights);
+        let (limits, used) = (self.limits, &mut self.displacements);
+        let of = |target: &MorphTarget| target.positions;
+        let positions = morph.apply(positions, &Semantic::Positions, of, limits, used)?;
         let vertices = positions.len();
-        let triangles = self.triangles(primitive, topology, &positions, place)?;
+        let triangles = self.triangles(&attributes, topology, &positions, form.bent)?;
         if triangles.is_empty() {
             return Ok(None);
         }
-        let normals = self.vectors::<3>(primitive, Semantic::Normals, place)?;
-        check_len(normals.as_ref(), vertices, "NORMAL", place)?;
+        let normals = attributes.full::<3>(Semantic::Normals, vertices)?;
         let most = match &normals {
             Some(normals) => normals.len().min(3 * triangles.len()),
             None => 3 * triangles.len(),
         };
         self.vertices += most as u64;
         check_vertices(self.vertices, self.limits, place)?;
+        let used = &mut self.displacements;
+        let of = |target: &MorphTarget| target.normals;
+        let normals = normals
+            .map(|normals| morph.apply(normals, &Semantic::Normals, of, limits, used))
+            .transpose()?;
         let (triangles, sources) = match &normals {
             Some(_) => compact(triangles, vertices),
             None => unshared(triangles),
@@ -79,30 +109,43 @@ impl<'a> Reader<'a> {
         let normals = normals.collect();
         let (material, mapping) = self.materials.intern(primitive.material, place, warnings)?;
         let texcoords = match mapping {
-            Some(mapping) => self.texcoords(primitive, &mapping, &sources, place, warnings)?,
+            Some(mapping) => texcoords(&attributes, &mapping, &sources, warnings)?,
             None => Vec::new(),
+        };
+        let colors = attributes.colors(vertices)?;
+        if colors.is_some() {
+            // They are read, but no phase looks at them yet.
+            warnings.add("vertex colours are ignored");
+        }
+        let color = |colors: Colors<'_>| sources.iter().map(|&s| colors.get(s)).collect();
+        let influences = match form.bent {
+            true => Influences::read(&attributes, vertices, &sources)?,
+            false => None,
         };
         Ok(Some(Primitive {
             positions,
             normals,
             texcoords,
+            colors: colors.map_or(Vec::new(), color),
+            influences,
             triangles,
             material,
         }))
     }
 
-    /// Triangles that have an area, as indices of the file's vertices.
+    /// Triangles that have an area, as indices of the file's vertices; all of them if they will yet be bent.
     fn triangles(
         &mut self,
-        primitive: &mesh::Primitive,
+        attributes: &Attributes<'a, '_>,
         topology: Topology,
-        positions: &Vectors<'_, 3>,
-        place: &str,
+        positions: &Shape<'_, 3>,
+        bent: bool,
     ) -> Result<Vec<[u32; 3]>> {
         let vertices = positions.len();
-        let place_of_positions = format!("{place}.attributes.POSITION");
-        let place = format!("{place}.indices");
-        let indices = primitive
+        let place_of_positions = attributes.path(&Semantic::Positions);
+        let place = format!("{}.indices", attributes.place);
+        let indices = attributes
+            .primitive
             .indices
             .map(|index| Indices::new(self.document, self.buffers, index, || place.clone()))
             .transpose()?;
@@ -141,52 +184,35 @@ impl<'a> Reader<'a> {
                 *corner = position(positions, v, &place_of_positions)?;
             }
             // Tested here, so that a file of nothing but points costs no memory.
-            if cross(corners) != DVec3::ZERO {
+            if bent || cross(corners) != DVec3::ZERO {
                 triangles.push(triangle);
             }
         }
         Ok(triangles)
     }
+}
 
-    fn texcoords(
-        &self,
-        primitive: &mesh::Primitive,
-        mapping: &Mapping,
-        sources: &[u32],
-        place: &str,
-        warnings: &mut Warnings,
-    ) -> Result<Vec<Vec2>> {
-        let semantic = Semantic::TexCoords(mapping.set);
-        let Some(texcoords) = self.vectors::<2>(primitive, semantic, place)? else {
-            warnings.add("textured surfaces without texture coordinates show one texel");
-            return Ok(vec![Vec2::ZERO; sources.len()]);
-        };
-        let needed = sources.iter().max().map_or(0, |&last| last as usize + 1);
-        check_len(Some(&texcoords), needed, "TEXCOORD", place)?;
-        let at = |&source| {
-            let mapped = mapping.apply(Vec2::from(texcoords.get(source)));
-            if mapped.is_finite() {
-                mapped
-            } else {
-                Vec2::ZERO
-            }
-        };
-        Ok(sources.iter().map(at).collect())
-    }
-
-    fn vectors<const N: usize>(
-        &self,
-        primitive: &mesh::Primitive,
-        semantic: Semantic,
-        place: &str,
-    ) -> Result<Option<Vectors<'a, N>>> {
-        let name = semantic.to_string();
-        let index: Option<&Index<Accessor>> = primitive.attributes.get(&Checked::Valid(semantic));
-        let place = || format!("{place}.attributes.{name}");
-        index
-            .map(|&index| Vectors::new(self.document, self.buffers, index, place))
-            .transpose()
-    }
+fn texcoords(
+    attributes: &Attributes<'_, '_>,
+    mapping: &Mapping,
+    sources: &[u32],
+    warnings: &mut Warnings,
+) -> Result<Vec<Vec2>> {
+    let semantic = Semantic::TexCoords(mapping.set);
+    let needed = sources.iter().max().map_or(0, |&last| last as usize + 1);
+    let Some(texcoords) = attributes.full::<2>(semantic, needed)? else {
+        warnings.add("textured surfaces without texture coordinates show one texel");
+        return Ok(vec![Vec2::ZERO; sources.len()]);
+    };
+    let at = |&source| {
+        let mapped = mapping.apply(Vec2::from(texcoords.get(source)));
+        if mapped.is_finite() {
+            mapped
+        } else {
+            Vec2::ZERO
+        }
+    };
+    Ok(sources.iter().map(at).collect())
 }
 
 /// Refuses more triangles than the limits allow.
@@ -234,33 +260,7 @@ fn topology(
     }
 }
 
-fn note_ignored(primitive: &mesh::Primitive, warnings: &mut Warnings) {
-    if primitive.targets.as_ref().is_some_and(|t| !t.is_empty()) {
-        warnings.add("morph targets are ignored");
-    }
-    let colored = |s: &Checked<Semantic>| matches!(s, Checked::Valid(Semantic::Colors(_)));
-    if primitive.attributes.keys().any(colored) {
-        warnings.add("vertex colours are ignored");
-    }
-}
-
-fn check_len<const N: usize>(
-    attribute: Option<&Vectors<'_, N>>,
-    vertices: usize,
-    name: &str,
-    place: &str,
-) -> Result<()> {
-    match attribute {
-        Some(attribute) if attribute.len() < vertices => Err(Fault::new(
-            format!("{place}.attributes.{name}"),
-            format!("{} elements for {vertices} vertices", attribute.len()),
-            "the file is broken; export it again",
-        )),
-        _ => Ok(()),
-    }
-}
-
-fn position(positions: &Vectors<'_, 3>, source: u32, place: &str) -> Result<Vec3> {
+fn position(positions: &Shape<'_, 3>, source: u32, place: &str) -> Result<Vec3> {
     let position = Vec3::from(positions.get(source));
     if position.is_finite() {
         return Ok(position);

@@ -90,11 +90,10 @@ fn what_is_ignored_is_said_once() {
         scene.warnings,
         [
             "extension `KHR_materials_sheen` is ignored",
-            "vertex colours are ignored",
             "alpha blending is ignored: drawn opaque",
             "normal maps are ignored",
             "emission is ignored: surfaces do not shine",
-            "morph targets are ignored",
+            "vertex colours are ignored",
         ]
     );
     assert_eq!(scene.materials.len(), 2);

@@ -5,6 +5,7 @@ mod hostile;
 mod images;
 mod materials;
 mod resources;
+mod shapes;
 mod things;
 
 use super::{Limits, load, load_with};
