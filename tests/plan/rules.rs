@@ -115,11 +115,7 @@ fn textures_are_read_only_where_there_are_any() {
         reason(&shot.plan(), "texture reads"),
         Some((false, "no material has a texture"))
     );
-    shot.scene.materials[0].base_color_texture = Some(vsgl_core::scene::TextureRef {
-        texture: 0,
-        wrap: Default::default(),
-        filter: Default::default(),
-    });
+    shot.scene.materials[0].base_color_texture = Some(vsgl_core::scene::TextureRef::new(0));
     let plan = shot.plan();
     assert_eq!(
         reason(&plan, "texture reads"),

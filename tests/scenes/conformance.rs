@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
-use vsgl_core::scene::{Scene, gltf};
+use vsgl_core::scene::{Scene, Slot, gltf};
 
 enum Expected {
     /// Has no triangles, and says no more.
@@ -349,12 +349,9 @@ pub(crate) fn check(scene: &Scene, name: &str) {
     assert!(mesh.normals.iter().all(|n| n.is_normalized()), "{name}");
     assert!(mesh.texcoords.iter().all(|t| t.is_finite()), "{name}");
     for material in &scene.materials {
-        let textures = [
-            material.base_color_texture,
-            material.metallic_roughness_texture,
-        ];
-        for texture in textures.into_iter().flatten() {
-            assert!(!mesh.texcoords.is_empty(), "{name}");
+        for texture in Slot::ALL.iter().filter_map(|&slot| material.texture(slot)) {
+            let sets = [&mesh.texcoords, &mesh.texcoords_second];
+            assert!(!sets[texture.set as usize].is_empty(), "{name}");
             let texture = &scene.textures[texture.texture as usize];
             assert_eq!(
                 texture.texels.len(),

@@ -30,38 +30,38 @@ const fn scene(
     }
 }
 
-/// Textures are the images of base colour and metallic-roughness.
+/// Textures are the images of base colour, metallic-roughness, normals and emission, and those of the extensions.
 const SCENES: &[Expected] = &[
-    scene("scenes/Sponza/Sponza.gltf", [262_087, 0], [38, 0, 4]),
+    scene("scenes/Sponza/Sponza.gltf", [262_087, 0], [49, 0, 4]),
     scene(
         "scenes/BreakfastRoom/BreakfastRoom.gltf",
         [262_687, 0],
         [3, 0, 3],
     ),
-    scene("scenes/Bathroom/Bathroom.glb", [38_555, 2_897], [8, 0, 0]),
+    scene("scenes/Bathroom/Bathroom.glb", [38_555, 2_897], [9, 0, 0]),
     scene("scenes/HotelRoom/HotelRoom.glb", [99_029, 0], [6, 0, 0]),
     scene("scenes/Zdm2/zdm2.glb", [58_772, 1_134], [0, 0, 0]),
     scene(
         "scenes/DepthOfField/DepthOfField.glb",
         [10_610, 0],
-        [2, 0, 0],
+        [5, 0, 0],
     ),
     scene(
         "scenes/LightsPunctualLamp/LightsPunctualLamp.gltf",
         [6_000, 0],
-        [3, 0, 0],
+        [6, 0, 0],
     ),
     scene(
         "scenes/StainedGlassLamp/StainedGlassLamp.gltf",
         [35_132, 0],
-        [8, 0, 0],
+        [16, 0, 0],
     ),
     scene(
         "scenes/SpaceExploration/SpaceExploration.glb",
         [50_003, 0],
-        [1, 0, 0],
+        [2, 0, 0],
     ),
-    scene("scenes/ToyCar/ToyCar.gltf", [108_936, 0], [3, 0, 8]),
+    scene("scenes/ToyCar/ToyCar.gltf", [108_936, 0], [6, 0, 8]),
     scene("scenes/CornellBox/CornellBox.glb", [36, 0], [0, 0, 0]),
     scene("scenes/TpsLights/TpsLights.glb", [5_440, 0], [0, 13, 0]),
     scene("ground-truth/room_spot.glb", [2_242, 0], [0, 1, 1]),

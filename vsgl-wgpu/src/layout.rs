@@ -56,11 +56,24 @@ fn records_of_the_scene_and_of_lights() {
         MaterialRecord {
             base_color,
             metallic,
-            dielectric_f0,
-            dielectric_f90,
+            reflectance,
+            specular,
             roughness,
+            alpha,
+            alpha_cutoff,
+            flags,
+            emission,
+            normal_scale,
+            anisotropy,
+            anisotropy_cos,
+            anisotropy_sin,
             base_color_texture,
             metallic_roughness_texture,
+            normal_texture,
+            emissive_texture,
+            specular_texture,
+            specular_color_texture,
+            anisotropy_texture,
             padding,
         }
     );
@@ -71,17 +84,28 @@ fn records_of_the_scene_and_of_lights() {
             first,
             width,
             height,
-            mode
+            mode,
+            to_u,
+            smaller,
+            to_v,
+            levels,
         }
     );
     twins!(
         "data/scene",
         "TexelLayout",
         TexelLayout {
+            corner_texcoord,
+            corner_texcoord_second,
+            corner_tangent,
+            corner_color,
+            triangle_material,
+            material,
             texture,
             texel,
             srgb,
-            rows
+            rows,
+            padding,
         }
     );
     twins!(

@@ -43,23 +43,47 @@ impl From<&vsgl_core::render::View> for View {
     }
 }
 
+/// Place of a column that a scene may lack, if it does.
+pub(crate) const NO_WORDS: u32 = u32::MAX;
+
 /// Twin of `TexelLayout` in `data/scene.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub(crate) struct TexelLayout {
+    pub(crate) corner_texcoord: u32,
+    pub(crate) corner_texcoord_second: u32,
+    pub(crate) corner_tangent: u32,
+    pub(crate) corner_color: u32,
+    pub(crate) triangle_material: u32,
+    pub(crate) material: u32,
     pub(crate) texture: u32,
     pub(crate) texel: u32,
     pub(crate) srgb: u32,
     pub(crate) rows: u32,
+    pub(crate) padding: [u32; 2],
 }
 
 impl TexelLayout {
     pub(crate) fn of(scene: &WgpuRes<SceneData>) -> Self {
+        let first = |column: &str| {
+            if scene.len(column) > 0 {
+                scene.first_word(column)
+            } else {
+                NO_WORDS
+            }
+        };
         Self {
-            texture: scene.first_word("texture"),
-            texel: scene.first_word("texel"),
-            srgb: scene.first_word("srgb"),
+            corner_texcoord: first("corner_texcoord"),
+            corner_texcoord_second: first("corner_texcoord_second"),
+            corner_tangent: first("corner_tangent"),
+            corner_color: first("corner_color"),
+            triangle_material: first("triangle_material"),
+            material: first("material"),
+            texture: first("texture"),
+            texel: first("texel"),
+            srgb: first("srgb"),
             rows: scene.texels().rows(),
+            padding: [0; 2],
         }
     }
 }

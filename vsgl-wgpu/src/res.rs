@@ -35,8 +35,21 @@ const GROUPS: &[(&str, &[&str])] = &[
         ],
     ),
 ];
-/// Columns that are kept as texels of an integer texture.
-const TEXELS: (&str, &[&str]) = ("scene", &["texture", "texel", "srgb"]);
+/// Columns that are kept as texels of an integer texture: what is read where a ray has hit, not on its way.
+const TEXELS: (&str, &[&str]) = (
+    "scene",
+    &[
+        "corner_texcoord",
+        "corner_texcoord_second",
+        "corner_tangent",
+        "corner_color",
+        "triangle_material",
+        "material",
+        "texture",
+        "texel",
+        "srgb",
+    ],
+);
 
 /// The resource whose number of entries shaders read from a buffer.
 const COUNTED: &str = "vsgls";

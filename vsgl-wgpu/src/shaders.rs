@@ -32,6 +32,7 @@ pub const MODULES: &[(&str, &str)] = modules![
     "data/vsgls",
     "data/vsgls_read",
     "data/vsgls_write",
+    "data/words",
     "entry/best",
     "entry/cluster",
     "entry/export",
@@ -131,8 +132,14 @@ fn visit<'a>(name: &'a str, order: &mut Vec<&'a str>, above: &mut Vec<&'a str>) 
     order.push(name);
 }
 
+/// 32-bit words of a record.
+const fn words<T>() -> u32 {
+    (size_of::<T>() / 4) as u32
+}
+
 /// Constants of phases and geometry, written once in Rust.
 fn header() -> String {
+    use vsgl_core::data;
     use vsgl_core::phase::{cluster, facing, partition, pdf, rsm, shade, surface};
     let floats: &[(&str, f32)] = &[
         ("ALPHA_MIN", surface::ALPHA_MIN),
@@ -145,8 +152,16 @@ fn header() -> String {
         ("BELOW_ONE", pdf::BELOW_ONE),
     ];
     let integers: &[(&str, u32)] = &[
-        ("NO_TRIANGLE", vsgl_core::data::NO_TRIANGLE),
-        ("NO_TEXTURE", vsgl_core::data::NO_TEXTURE),
+        ("NO_TRIANGLE", data::NO_TRIANGLE),
+        ("NO_TEXTURE", data::NO_TEXTURE),
+        ("NO_WORDS", crate::params::NO_WORDS),
+        ("MATERIAL_WORDS", words::<data::MaterialRecord>()),
+        ("TEXTURE_WORDS", words::<data::TextureRecord>()),
+        ("DOUBLE_SIDED", data::DOUBLE_SIDED),
+        ("UNLIT", data::UNLIT),
+        ("NEAREST", data::NEAREST),
+        ("MIPS", data::MIPS),
+        ("SECOND_SET", data::SECOND_SET),
         ("STACK", vsgl_core::geom::STACK as u32),
         ("TEXEL_SIDE", crate::texels::SIDE),
         ("INVOCATIONS", crate::kernel::INVOCATIONS),

@@ -18,7 +18,10 @@ pub use image::Image;
 pub use pdf::Pdf;
 pub use radiance::Radiance;
 pub use rsm::{MapRecord, Rsm};
-pub use scene_data::{MaterialRecord, NO_TEXTURE, SceneData, TextureRecord};
+pub use scene_data::{
+    DOUBLE_SIDED, MIPS, MaterialRecord, NEAREST, NO_TEXTURE, SECOND_SET, SceneData, TextureRecord,
+    UNLIT,
+};
 pub use vsgls::{DiffuseVsgl, SpecularVsgl, Target, Vsgls};
 
 /// Id of no triangle: a ray that left the scene.

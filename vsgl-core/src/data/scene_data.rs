@@ -21,13 +21,20 @@ columns! {
         corner: [f32; 9],
         /// Shading normals at the corners.
         corner_normal: [f32; 9],
-        /// Texture coordinates at the corners. Empty without textures.
+        /// Texture coordinates at the corners. Empty where no texture reads them.
         corner_texcoord: [f32; 6],
+        /// A second set of texture coordinates. Empty where no texture reads them.
+        corner_texcoord_second: [f32; 6],
+        /// Unit tangents with the sign of the bitangent, at the corners. Empty where no material reads them, or the scene has
+        /// none.
+        corner_tangent: [f32; 12],
+        /// Linear colours with opacity, at the corners. Empty where the scene has none.
+        corner_color: [f32; 12],
         /// Material of each triangle.
         triangle_material: u32,
         /// Materials.
         material: MaterialRecord,
-        /// Textures: records of four integers. Empty without textures.
+        /// Uses of textures. Empty without textures.
         texture: TextureRecord,
         /// Texels of all textures, red in the lowest byte. Empty without textures.
         texel: u32,
@@ -43,7 +50,12 @@ impl SceneData {
     }
 }
 
-/// A material, ready to be evaluated.
+/// [`MaterialRecord::flags`]: the surface shines from both sides.
+pub const DOUBLE_SIDED: u32 = 1;
+/// [`MaterialRecord::flags`]: the surface shows its base colour and reflects nothing.
+pub const UNLIT: u32 = 2;
+
+/// A material, ready to be evaluated. Textures are indices into [`SceneData::texture`], or [`NO_TEXTURE`].
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct MaterialRecord {
@@ -51,23 +63,56 @@ pub struct MaterialRecord {
     pub base_color: [f32; 3],
     /// Metallic factor.
     pub metallic: f32,
-    /// Dielectric reflectance at normal incidence.
-    pub dielectric_f0: [f32; 3],
-    /// Dielectric reflectance at grazing incidence.
-    pub dielectric_f90: f32,
+    /// Reflectance of the dielectric at normal incidence before its strength, not yet limited to 1.
+    pub reflectance: [f32; 3],
+    /// Strength of the dielectric reflection: its reflectance at grazing incidence.
+    pub specular: f32,
     /// Perceptual roughness factor.
     pub roughness: f32,
-    /// Bits of the index of the base colour texture, or [`NO_TEXTURE`].
+    /// Opacity.
+    pub alpha: f32,
+    /// Where opacity is less, there is no surface; -1 where the material is opaque.
+    pub alpha_cutoff: f32,
+    /// [`DOUBLE_SIDED`] and [`UNLIT`].
+    pub flags: u32,
+    /// Radiance \[W/(m² sr)\].
+    pub emission: [f32; 3],
+    /// Factor of x and y of the normal map.
+    pub normal_scale: f32,
+    /// Strength of anisotropy.
+    pub anisotropy: f32,
+    /// Cosine of its angle against the tangent.
+    pub anisotropy_cos: f32,
+    /// Sine of it.
+    pub anisotropy_sin: f32,
+    /// Texture of the base colour.
     pub base_color_texture: u32,
-    /// Bits of the index of the metallic-roughness texture, or [`NO_TEXTURE`].
+    /// Texture of roughness and metallic.
     pub metallic_roughness_texture: u32,
+    /// Normal map.
+    pub normal_texture: u32,
+    /// Texture of the emission.
+    pub emissive_texture: u32,
+    /// Texture of the strength of the dielectric reflection.
+    pub specular_texture: u32,
+    /// Texture of its colour.
+    pub specular_color_texture: u32,
+    /// Texture of anisotropy.
+    pub anisotropy_texture: u32,
     /// Zero.
-    pub padding: u32,
+    pub padding: [u32; 2],
 }
+
+/// [`TextureRecord::mode`]: the nearest texel instead of a mean of four.
+pub const NEAREST: u32 = 16;
+/// [`TextureRecord::mode`]: there are smaller images.
+pub const MIPS: u32 = 32;
+/// [`TextureRecord::mode`]: the second set of texture coordinates.
+pub const SECOND_SET: u32 = 64;
 
 /// Where a texture's texels lie, and how it is read.
 #[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, bytemuck::Pod, bytemuck::Zeroable)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct TextureRecord {
     /// Index of the first texel.
     pub first: u32,
@@ -75,8 +120,16 @@ pub struct TextureRecord {
     pub width: u32,
     /// Height in texels.
     pub height: u32,
-    /// Bits 0-1 wrap along u, 2-3 along v (0 repeat, 1 mirror, 2 clamp); bit 4: nearest texel.
+    /// Bits 0-1 wrap along u, 2-3 along v (0 repeat, 1 mirror, 2 clamp); [`NEAREST`], [`MIPS`], [`SECOND_SET`].
     pub mode: u32,
+    /// From texture coordinates of the mesh to u of the image: factor of u, factor of v, what is added.
+    pub to_u: [f32; 3],
+    /// Index of the first texel of the first smaller image; the others follow it.
+    pub smaller: u32,
+    /// The same to v.
+    pub to_v: [f32; 3],
+    /// How many images there are, the full one included.
+    pub levels: u32,
 }
 
 impl Element for MaterialRecord {

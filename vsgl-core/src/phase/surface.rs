@@ -50,27 +50,28 @@ pub fn at_hit(scene: &SceneData, hit: &Hit, direction: Vec3, textured: bool) -> 
     let mut metallic = material.metallic;
     let mut roughness = material.roughness;
     // A plan made by hand may ask for textures that the scene has not.
-    if textured && !scene.corner_texcoord.is_empty() {
-        let (s, t) = texcoord(scene, triangle, u, v);
+    if textured && !scene.texture.is_empty() {
+        let sample =
+            |texture: u32, srgb: bool| texture::sample(scene, texture, triangle, u, v, srgb);
         if material.base_color_texture != NO_TEXTURE {
-            let color = texture::sample(scene, material.base_color_texture, s, t, true);
+            let color = sample(material.base_color_texture, true);
             base = [base[0] * color[0], base[1] * color[1], base[2] * color[2]];
         }
         if material.metallic_roughness_texture != NO_TEXTURE {
-            let factors = texture::sample(scene, material.metallic_roughness_texture, s, t, false);
+            let factors = sample(material.metallic_roughness_texture, false);
             roughness *= factors[1];
             metallic *= factors[2];
         }
     }
-    let dielectric = material.dielectric_f0;
+    let dielectric = material.reflectance.map(|c| c.min(1.0) * material.specular);
     Surface {
         position,
         normal,
         diffuse: base.map(|c| (1.0 - metallic) * c),
         dielectric_f0: dielectric[0].max(dielectric[1]).max(dielectric[2]),
-        dielectric_f90: material.dielectric_f90,
+        dielectric_f90: material.specular,
         f0: std::array::from_fn(|i| mix(dielectric[i], base[i], metallic)),
-        f90: mix(material.dielectric_f90, 1.0, metallic),
+        f90: mix(material.specular, 1.0, metallic),
         alpha: (roughness * roughness).max(ALPHA_MIN),
     }
 }
@@ -85,11 +86,4 @@ fn interpolate(corner: &[f32; 9], u: f32, v: f32) -> Vec3 {
     let ab = Vec3::new(corner[3], corner[4], corner[5]) - a;
     let ac = Vec3::new(corner[6], corner[7], corner[8]) - a;
     (a + ab * u) + ac * v
-}
-
-fn texcoord(scene: &SceneData, triangle: usize, u: f32, v: f32) -> (f32, f32) {
-    let c = &scene.corner_texcoord[triangle];
-    let s = (c[0] + (c[2] - c[0]) * u) + (c[4] - c[0]) * v;
-    let t = (c[1] + (c[3] - c[1]) * u) + (c[5] - c[1]) * v;
-    (s, t)
 }

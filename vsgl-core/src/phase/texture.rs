@@ -1,14 +1,45 @@
 //! Reading textures, with exact loads and our own interpolation.
 
 use super::surface::mix;
-use crate::data::{SceneData, TextureRecord};
+use crate::data::{NEAREST, SECOND_SET, SceneData, TextureRecord};
 
-/// Four channels 0..=1 at a texture coordinate. `srgb` decodes red, green and blue before they are interpolated.
-pub fn sample(scene: &SceneData, texture: u32, u: f32, v: f32, srgb: bool) -> [f32; 4] {
+/// Where a texture is read at a point of a triangle, given by the weights of its second and third corner: u and v of the
+/// image.
+pub fn coordinates(
+    scene: &SceneData,
+    record: &TextureRecord,
+    triangle: usize,
+    u: f32,
+    v: f32,
+) -> [f32; 2] {
+    let c = if record.mode & SECOND_SET != 0 {
+        &scene.corner_texcoord_second[triangle]
+    } else {
+        &scene.corner_texcoord[triangle]
+    };
+    let s = (c[0] + (c[2] - c[0]) * u) + (c[4] - c[0]) * v;
+    let t = (c[1] + (c[3] - c[1]) * u) + (c[5] - c[1]) * v;
+    let (to_u, to_v) = (record.to_u, record.to_v);
+    [
+        (to_u[0] * s + to_u[1] * t) + to_u[2],
+        (to_v[0] * s + to_v[1] * t) + to_v[2],
+    ]
+}
+
+/// Four channels 0..=1 at a point of a triangle. `srgb` decodes red, green and blue before they are interpolated.
+pub fn sample(
+    scene: &SceneData,
+    texture: u32,
+    triangle: usize,
+    u: f32,
+    v: f32,
+    srgb: bool,
+) -> [f32; 4] {
     let record = scene.texture[texture as usize];
+    let [u, v] = coordinates(scene, &record, triangle, u, v);
     let x = u * record.width as f32 - 0.5;
     let y = v * record.height as f32 - 0.5;
-    if record.mode & 16 != 0 {
+    if record.mode & NEAREST != 0 {
         return scaled(
             load(scene, &record, (x + 0.5).floor(), (y + 0.5).floor(), srgb),
             srgb,

@@ -1,6 +1,6 @@
 //! What a scene contains, as far as the plan asks.
 
-use super::{Camera, Light, Scene, SpotLight};
+use super::{Camera, Light, Scene, Slot, SpotLight};
 use glam::Vec3;
 
 /// Findings about a scene under its lights, seen by a camera. Each is conservative: "no" is certain.
@@ -34,7 +34,7 @@ impl SceneFacts {
             textures: scene
                 .materials
                 .iter()
-                .any(|m| m.base_color_texture.is_some() || m.metallic_roughness_texture.is_some()),
+                .any(|m| Slot::ALL.iter().any(|&slot| m.texture(slot).is_some())),
             bounds: scene.bounds(),
         };
         for (triangle, &material) in scene.mesh.triangles.iter().zip(&scene.mesh.material) {

@@ -15,7 +15,7 @@ pub mod samples;
 pub use camera::Camera;
 pub use facts::SceneFacts;
 pub use light::{Light, SpotLight};
-pub use material::{Filter, Material, Texture, TextureRef, Wrap};
+pub use material::{Filter, Material, Slot, Texture, TextureRef, Wrap};
 
 use glam::{DVec3, Vec2, Vec3, Vec4};
 

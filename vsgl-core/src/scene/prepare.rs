@@ -1,8 +1,12 @@
 //! From the scene as it was read to the scene as the phases read it.
 
-use super::{Filter, Material, Scene, TextureRef, Wrap};
-use crate::data::{MaterialRecord, NO_TEXTURE, SceneData, TextureRecord};
+use super::{Filter, Material, Scene, Slot, TextureRef, Wrap};
+use crate::data::{
+    DOUBLE_SIDED, MIPS, MaterialRecord, NEAREST, NO_TEXTURE, SECOND_SET, SceneData, TextureRecord,
+    UNLIT,
+};
 use crate::geom;
+use glam::{Affine2, Vec2, Vec4};
 
 impl SceneData {
     /// Orders the triangles along a bounding volume hierarchy and gathers what shading them needs.
@@ -14,19 +18,32 @@ impl SceneData {
         let order = || bvh.order.iter().map(|&i| i as usize);
 
         let (textures, texels) = gather_textures(scene);
-        let textured = !textures.is_empty();
+        let reads = |set: u32| {
+            let mut used = scene.materials.iter().flat_map(uses).flatten();
+            used.any(|texture| texture.set == set)
+        };
         let (low, high) = scene.bounds();
-        let texcoord = |i: usize| {
-            let corner = mesh.triangles[i]
-                .map(|v| mesh.texcoords.get(v as usize).copied().unwrap_or_default());
-            [
-                corner[0].x,
-                corner[0].y,
-                corner[1].x,
-                corner[1].y,
-                corner[2].x,
-                corner[2].y,
-            ]
+        let corner_texcoord = |set: u32, texcoords: &[Vec2]| {
+            let value = |v: usize| {
+                texcoords
+                    .get(v)
+                    .map_or([0.0; 2], |t| t.to_array().map(sound))
+            };
+            let corners = |i: usize| spread::<2, 6>(&mesh.triangles[i], value);
+            if reads(set) {
+                order().map(corners).collect()
+            } else {
+                Vec::new()
+            }
+        };
+        let corner_four = |values: &[Vec4]| {
+            let value = |v: usize| values.get(v).copied().unwrap_or_default().to_array();
+            let corners = |i: usize| spread::<4, 12>(&mesh.triangles[i], value);
+            if values.is_empty() {
+                Vec::new()
+            } else {
+                order().map(corners).collect()
+            }
         };
         Self {
             lift_bits: (LIFT_LEAST * (high - low).length()).to_bits(),
@@ -34,18 +51,17 @@ impl SceneData {
             corner_normal: order()
                 .map(|i| spread(&mesh.triangles[i], |v| mesh.normals[v].to_array()))
                 .collect(),
-            corner_texcoord: if textured {
-                order().map(texcoord).collect()
-            } else {
-                Vec::new()
-            },
+            corner_texcoord: corner_texcoord(0, &mesh.texcoords),
+            corner_texcoord_second: corner_texcoord(1, &mesh.texcoords_second),
+            corner_tangent: corner_four(&mesh.tangents),
+            corner_color: corner_four(&mesh.colors),
             triangle_material: order().map(|i| mesh.material[i]).collect(),
             material: gather_materials(scene),
             node: bvh.nodes,
-            srgb: if textured {
-                (0..=255).map(srgb_to_linear).collect()
-            } else {
+            srgb: if textures.is_empty() {
                 Vec::new()
+            } else {
+                (0..=255).map(srgb_to_linear).collect()
             },
             texture: textures,
             texel: texels,
@@ -56,17 +72,30 @@ impl SceneData {
 /// Least lift of ray origins, as a share of the scene's diagonal: a few roundings of a coordinate at its edge.
 const LIFT_LEAST: f32 = 2.5e-7;
 
-fn spread(triangle: &[u32; 3], value: impl Fn(usize) -> [f32; 3]) -> [f32; 9] {
-    let [a, b, c] = triangle.map(|v| value(v as usize));
-    [a[0], a[1], a[2], b[0], b[1], b[2], c[0], c[1], c[2]]
+/// Largest texture coordinate that is read: what is computed from it stays a number.
+const TEXCOORD_MAX: f32 = 1e12;
+
+/// A texture coordinate, or zero where it is none.
+fn sound(texcoord: f32) -> f32 {
+    if texcoord.abs() <= TEXCOORD_MAX {
+        texcoord
+    } else {
+        0.0
+    }
 }
 
-/// One record for each use of a texture: base colour of material 0, its metallic-roughness, material 1 …
-fn uses(material: &Material) -> [Option<TextureRef>; 2] {
-    [
-        material.base_color_texture,
-        material.metallic_roughness_texture,
-    ]
+/// The values at the corners of a triangle, one after the other; `M` is three times `N`.
+fn spread<const N: usize, const M: usize>(
+    triangle: &[u32; 3],
+    value: impl Fn(usize) -> [f32; N],
+) -> [f32; M] {
+    let corners = triangle.map(|v| value(v as usize));
+    std::array::from_fn(|i| corners[i / N][i % N])
+}
+
+/// One record for each use of a texture: those of material 0, those of material 1 …
+fn uses(material: &Material) -> [Option<TextureRef>; Slot::ALL.len()] {
+    Slot::ALL.map(|slot| material.texture(slot))
 }
 
 fn gather_materials(scene: &Scene) -> Vec<MaterialRecord> {
@@ -78,17 +107,38 @@ fn gather_materials(scene: &Scene) -> Vec<MaterialRecord> {
         })
     };
     let record = |material: &Material| {
-        let (f0, f90) = material.dielectric_fresnel();
-        let [base_color_texture, metallic_roughness_texture] = uses(material).map(&mut index);
+        let [
+            base_color_texture,
+            metallic_roughness_texture,
+            normal_texture,
+            emissive_texture,
+            specular_texture,
+            specular_color_texture,
+            anisotropy_texture,
+        ] = uses(material).map(&mut index);
         MaterialRecord {
             base_color: material.base_color,
             metallic: material.metallic,
-            dielectric_f0: f0,
-            dielectric_f90: f90,
+            reflectance: material.reflectance(),
+            specular: material.specular,
             roughness: material.roughness,
+            alpha: material.alpha,
+            alpha_cutoff: material.alpha_cutoff.unwrap_or(-1.0),
+            flags: u32::from(material.double_sided) * DOUBLE_SIDED
+                + u32::from(material.unlit) * UNLIT,
+            emission: material.emission,
+            normal_scale: material.normal_scale,
+            anisotropy: material.anisotropy,
+            anisotropy_cos: material.anisotropy_rotation.cos(),
+            anisotropy_sin: material.anisotropy_rotation.sin(),
             base_color_texture,
             metallic_roughness_texture,
-            padding: 0,
+            normal_texture,
+            emissive_texture,
+            specular_texture,
+            specular_color_texture,
+            anisotropy_texture,
+            padding: [0; 2],
         }
     };
     scene.materials.iter().map(record).collect()
@@ -106,21 +156,38 @@ fn gather_textures(scene: &Scene) -> (Vec<TextureRecord>, Vec<u32>) {
     }
     let records = used.map(|use_| {
         let texture = &scene.textures[use_.texture as usize];
-        let wrap = |w: Wrap| match w {
-            Wrap::Repeat => 0,
-            Wrap::Mirror => 1,
-            Wrap::Clamp => 2,
-        };
-        let nearest = u32::from(use_.filter == Filter::Nearest) << 4;
+        let Affine2 {
+            matrix2,
+            translation,
+        } = use_.transform;
         TextureRecord {
             first: first_of[use_.texture as usize],
             width: texture.width,
             height: texture.height,
-            mode: wrap(use_.wrap[0]) | wrap(use_.wrap[1]) << 2 | nearest,
+            mode: mode(&use_),
+            to_u: [matrix2.x_axis.x, matrix2.y_axis.x, translation.x],
+            smaller: 0,
+            to_v: [matrix2.x_axis.y, matrix2.y_axis.y, translation.y],
+            levels: 1,
         }
     });
     let records = records.collect();
     (records, texels)
+}
+
+/// [`TextureRecord::mode`] of a use.
+fn mode(use_: &TextureRef) -> u32 {
+    let wrap = |w: Wrap| match w {
+        Wrap::Repeat => 0,
+        Wrap::Mirror => 1,
+        Wrap::Clamp => 2,
+    };
+    let flag = |set: bool, flag: u32| u32::from(set) * flag;
+    wrap(use_.wrap[0])
+        | wrap(use_.wrap[1]) << 2
+        | flag(use_.filter == Filter::Nearest, NEAREST)
+        | flag(use_.mips, MIPS)
+        | flag(use_.set == 1, SECOND_SET)
 }
 
 /// Linear value 0..=1 of an 8-bit sRGB code (IEC 61966-2-1).

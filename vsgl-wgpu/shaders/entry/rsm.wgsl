@@ -19,15 +19,12 @@ struct Params {
 @group(0) @binding(1) var<storage, read> node: array<BvhNode>;
 @group(0) @binding(2) var<storage, read> corner: array<array<f32, 9>>;
 @group(0) @binding(3) var<storage, read> corner_normal: array<array<f32, 9>>;
-@group(0) @binding(4) var<storage, read> corner_texcoord: array<array<f32, 6>>;
-@group(0) @binding(5) var<storage, read> triangle_material: array<u32>;
-@group(0) @binding(6) var<storage, read> material: array<MaterialRecord>;
-@group(0) @binding(7) var texels: texture_2d_array<u32>;
-@group(0) @binding(8) var<storage, read> triangle: array<u32>;
-@group(0) @binding(9) var<storage, read_write> triangle_out: array<u32>;
+@group(0) @binding(4) var texels: texture_2d_array<u32>;
+@group(0) @binding(5) var<storage, read> triangle: array<u32>;
+@group(0) @binding(6) var<storage, read_write> triangle_out: array<u32>;
 // Columns position, normal, diffuse, specular, grazing, one after the other.
-@group(0) @binding(10) var<storage, read_write> texel_out: array<vec4<f32>>;
-@group(0) @binding(11) var<storage, read_write> map_out: array<MapRecord>;
+@group(0) @binding(7) var<storage, read_write> texel_out: array<vec4<f32>>;
+@group(0) @binding(8) var<storage, read_write> map_out: array<MapRecord>;
 
 @compute @workgroup_size(INVOCATIONS)
 fn visibility(

@@ -1,7 +1,7 @@
-//! needs: data/scene, math/vec, geom/traverse, phase/texture
+//! needs: data/words, math/vec, geom/traverse, phase/texture
 // The surface at a hit. Twin of `vsgl-core/src/phase/surface.rs`.
 //
-// Reads `corner`, `corner_normal`, `corner_texcoord`, `triangle_material` and `material`, which the entry binds.
+// Reads `corner` and `corner_normal`, which the entry binds.
 
 struct Surface {
     position: vec3<f32>,
@@ -23,30 +23,29 @@ fn surface_at_hit(hit: Hit, direction: vec3<f32>) -> Surface {
     let smooth_normal = vec_normalize(surface_interpolate(corner_normal[triangle], u, v));
     let normal = select(smooth_normal, -smooth_normal, dot(smooth_normal, direction) > 0.0);
 
-    let record = material[triangle_material[triangle]];
+    let record = words_material(triangle);
     var base = record.base_color;
     var metallic = record.metallic;
     var roughness = record.roughness;
     if TEXTURED {
-        let st = surface_texcoord(corner_texcoord[triangle], u, v);
         if record.base_color_texture != NO_TEXTURE {
-            base = base * texture_sample(record.base_color_texture, st.x, st.y, true).xyz;
+            base = base * texture_sample(record.base_color_texture, triangle, u, v, true).xyz;
         }
         if record.metallic_roughness_texture != NO_TEXTURE {
-            let factors = texture_sample(record.metallic_roughness_texture, st.x, st.y, false);
+            let factors = texture_sample(record.metallic_roughness_texture, triangle, u, v, false);
             roughness = roughness * factors.y;
             metallic = metallic * factors.z;
         }
     }
-    let dielectric = record.dielectric_f0;
+    let dielectric = min(record.reflectance, vec3(1.0)) * record.specular;
     return Surface(
         position,
         normal,
         (1.0 - metallic) * base,
         max(max(dielectric.x, dielectric.y), dielectric.z),
-        record.dielectric_f90,
+        record.specular,
         dielectric + (base - dielectric) * metallic,
-        record.dielectric_f90 + (1.0 - record.dielectric_f90) * metallic,
+        record.specular + (1.0 - record.specular) * metallic,
         max(roughness * roughness, ALPHA_MIN),
     );
 }
@@ -56,10 +55,4 @@ fn surface_interpolate(corners: array<f32, 9>, u: f32, v: f32) -> vec3<f32> {
     let ab = vec3(corners[3], corners[4], corners[5]) - a;
     let ac = vec3(corners[6], corners[7], corners[8]) - a;
     return (a + ab * u) + ac * v;
-}
-
-fn surface_texcoord(c: array<f32, 6>, u: f32, v: f32) -> vec2<f32> {
-    let s = (c[0] + (c[2] - c[0]) * u) + (c[4] - c[0]) * v;
-    let t = (c[1] + (c[3] - c[1]) * u) + (c[5] - c[1]) * v;
-    return vec2(s, t);
 }

@@ -1,26 +1,27 @@
-//! needs: data/scene
+//! needs: data/words
 // Reading textures, with exact loads and our own interpolation. Twin of `vsgl-core/src/phase/texture.rs`.
-//
-// Reads `texels` and `params.texels`, which the entry binds.
 
-fn texture_word(index: u32) -> u32 {
-    let column = index % TEXEL_SIDE;
-    let row = index / TEXEL_SIDE;
-    let rows = params.texels.rows;
-    return textureLoad(texels, vec2(column, row % rows), row / rows, 0).x;
+// Where a texture is read at a point of a triangle, given by the weights of its second and third corner.
+fn texture_coordinates(record: TextureRecord, triangle: u32, u: f32, v: f32) -> vec2<f32> {
+    let second = (record.mode & SECOND_SET) != 0u;
+    let column = select(params.texels.corner_texcoord, params.texels.corner_texcoord_second, second);
+    let at = column + 6u * triangle;
+    let a = vec2(words_f32(at), words_f32(at + 1u));
+    let b = vec2(words_f32(at + 2u), words_f32(at + 3u));
+    let c = vec2(words_f32(at + 4u), words_f32(at + 5u));
+    let st = (a + (b - a) * u) + (c - a) * v;
+    let to_u = record.to_u;
+    let to_v = record.to_v;
+    return vec2((to_u.x * st.x + to_u.y * st.y) + to_u.z, (to_v.x * st.x + to_v.y * st.y) + to_v.z);
 }
 
-fn texture_record(texture: u32) -> TextureRecord {
-    let at = params.texels.texture + 4u * texture;
-    return TextureRecord(texture_word(at), texture_word(at + 1u), texture_word(at + 2u), texture_word(at + 3u));
-}
-
-// Four channels 0..=1 at a texture coordinate. `srgb` decodes red, green and blue before they are interpolated.
-fn texture_sample(texture: u32, u: f32, v: f32, srgb: bool) -> vec4<f32> {
-    let record = texture_record(texture);
-    let x = u * f32(record.width) - 0.5;
-    let y = v * f32(record.height) - 0.5;
-    if (record.mode & 16u) != 0u {
+// Four channels 0..=1 at a point of a triangle. `srgb` decodes red, green and blue before they are interpolated.
+fn texture_sample(texture: u32, triangle: u32, u: f32, v: f32, srgb: bool) -> vec4<f32> {
+    let record = words_texture(texture);
+    let st = texture_coordinates(record, triangle, u, v);
+    let x = st.x * f32(record.width) - 0.5;
+    let y = st.y * f32(record.height) - 0.5;
+    if (record.mode & NEAREST) != 0u {
         return texture_scaled(texture_load(record, floor(x + 0.5), floor(y + 0.5), srgb), srgb);
     }
     let left = floor(x);
@@ -41,11 +42,10 @@ fn texture_scaled(texel: vec4<f32>, srgb: bool) -> vec4<f32> {
     return select(scaled, vec4(texel.xyz, scaled.w), srgb);
 }
 
-
 fn texture_load(record: TextureRecord, x: f32, y: f32, srgb: bool) -> vec4<f32> {
     let column = texture_wrap(x, record.width, record.mode & 3u);
     let row = texture_wrap(y, record.height, (record.mode >> 2u) & 3u);
-    let word = texture_word(params.texels.texel + record.first + row * record.width + column);
+    let word = words_at(params.texels.texel + record.first + row * record.width + column);
     let code = vec4(word & 255u, (word >> 8u) & 255u, (word >> 16u) & 255u, word >> 24u);
     if srgb {
         return vec4(texture_srgb(code.x), texture_srgb(code.y), texture_srgb(code.z), f32(code.w));
@@ -54,7 +54,7 @@ fn texture_load(record: TextureRecord, x: f32, y: f32, srgb: bool) -> vec4<f32> 
 }
 
 fn texture_srgb(code: u32) -> f32 {
-    return bitcast<f32>(texture_word(params.texels.srgb + code));
+    return bitcast<f32>(words_at(params.texels.srgb + code));
 }
 
 // Index of a texel, 0 .. size, for any coordinate.

@@ -78,13 +78,6 @@ pub(crate) fn record(
         ("surface_out", made.bind("position")),
         ("grazing_out", made.bind("grazing")),
     ]);
-    let mut bound = scene_columns(scene);
-    bound.extend([
-        ("triangle", made.bind("triangle")),
-        ("triangle_out", made.bind("triangle")),
-        ("surface_out", made.bind("position")),
-        ("grazing_out", made.bind("grazing")),
-    ]);
     if plan.primary == Primary::Raster && raster::fits(view) {
         raster::record(recorder, scene, view, &made)?;
     } else {
@@ -92,7 +85,7 @@ pub(crate) fn record(
         recorder.dispatch(&visibility, &params, &bound, Groups::Items(count))?;
     }
     // A plan made by hand may ask for textures that the scene has not.
-    let textures = plan.textures && scene.len("corner_texcoord") > 0;
+    let textures = plan.textures && scene.len("texture") > 0;
     let constants = constants(plan.glossy, textures);
     let surface = context.kernel("entry/gbuffer", "surface", &constants)?;
     recorder.dispatch(&surface, &params, &bound, Groups::Items(count))?;

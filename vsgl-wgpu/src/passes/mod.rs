@@ -39,16 +39,9 @@ fn flag(value: bool) -> f64 {
 
 /// The columns of a scene, under the names that shaders bind them by.
 fn scene_columns(scene: &WgpuRes<SceneData>) -> Vec<(&'static str, Binding<'_>)> {
-    let mut bound = [
-        "node",
-        "corner",
-        "corner_normal",
-        "corner_texcoord",
-        "triangle_material",
-        "material",
-    ]
-    .map(|name| (name, scene.bind(name)))
-    .to_vec();
+    let mut bound = ["node", "corner", "corner_normal"]
+        .map(|name| (name, scene.bind(name)))
+        .to_vec();
     bound.push(("texels", scene.bind("texel")));
     bound
 }

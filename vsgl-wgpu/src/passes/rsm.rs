@@ -67,7 +67,7 @@ pub(crate) fn record(
     )?;
     let visibility = context.kernel("entry/rsm", "visibility", &[])?;
     // A plan made by hand may ask for textures that the scene has not.
-    let textures = plan.textures && scene.len("corner_texcoord") > 0;
+    let textures = plan.textures && scene.len("texture") > 0;
     let constants = constants(plan.glossy, textures);
     let surface = context.kernel("entry/rsm", "surface", &constants)?;
     let mut bound = scene_columns(scene);

@@ -204,7 +204,8 @@ fn centre(instances: &[Instance<'_>]) -> Result<DVec3> {
 struct Size {
     triangles: u64,
     vertices: u64,
-    textured: bool,
+    /// Whether there is a first and a second set of texture coordinates.
+    textured: [bool; 2],
     colored: bool,
 }
 
@@ -221,7 +222,10 @@ impl Size {
         Self {
             triangles: sum(|p| p.triangles.len()),
             vertices: sum(|p| p.positions.len()),
-            textured: any(|p| !p.texcoords.is_empty()),
+            textured: [
+                any(|p| !p.texcoords[0].is_empty()),
+                any(|p| !p.texcoords[1].is_empty()),
+            ],
             colored: any(|p| !p.colors.is_empty()),
         }
     }
@@ -235,8 +239,11 @@ fn join(instances: &[Instance<'_>], origin: DVec3, size: &Size) -> Mesh {
     mesh.normals.reserve_exact(vertices);
     mesh.triangles.reserve_exact(triangles);
     mesh.material.reserve_exact(triangles);
-    if size.textured {
+    if size.textured[0] {
         mesh.texcoords.reserve_exact(vertices);
+    }
+    if size.textured[1] {
+        mesh.texcoords_second.reserve_exact(vertices);
     }
     if size.colored {
         mesh.colors.reserve_exact(vertices);
@@ -260,9 +267,12 @@ fn append(mesh: &mut Mesh, primitive: &Primitive, frame: &Frame<'_>, origin: DVe
     let normals = primitive.normals.iter().enumerate();
     mesh.normals
         .extend(normals.map(|(v, n)| turn.at(v).normal(*n)));
-    if size.textured {
-        mesh.texcoords.extend(&primitive.texcoords);
-        mesh.texcoords.resize(count, Vec2::ZERO);
+    let sets = [&mut mesh.texcoords, &mut mesh.texcoords_second];
+    for (i, all) in sets.into_iter().enumerate() {
+        if size.textured[i] {
+            all.extend(&primitive.texcoords[i]);
+            all.resize(count, Vec2::ZERO);
+        }
     }
     if size.colored {
         mesh.colors.extend(&primitive.colors);

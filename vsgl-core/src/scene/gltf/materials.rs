@@ -2,13 +2,12 @@
 
 use super::document::{Document, lookup};
 use super::fault::{Fault, Result};
+use super::textures::{Sets, Textures, Use};
 use super::warnings::Warnings;
-use crate::scene::{Filter, Material, TextureRef, Wrap};
-use glam::Vec2;
+use crate::scene::Material;
 use gltf::json;
-use gltf::json::extensions::texture::TextureTransform;
 use gltf::json::material::AlphaMode;
-use gltf::json::texture::{Info, MagFilter, Sampler, WrappingMode};
+use gltf::json::texture::Info;
 use gltf::json::validation::Checked;
 use std::collections::HashMap;
 
@@ -16,53 +15,20 @@ use std::collections::HashMap;
 pub(super) struct Materials<'a> {
     document: &'a Document,
     materials: Vec<Material>,
-    mappings: Vec<Option<Mapping>>,
+    needs: Vec<Needs>,
     /// Index of a material of the file (none: the default material) to its place here.
     places: HashMap<Option<usize>, u32>,
-    images: Vec<usize>,
-    image_places: HashMap<usize, u32>,
+    textures: Textures<'a>,
 }
 
-/// Which texture coordinates a material reads, and how they are transformed.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Mapping {
-    /// Number of the set: `TEXCOORD_n`.
-    pub(super) set: u32,
-    scale: Vec2,
-    /// Sine and cosine of the rotation.
-    turn: Vec2,
-    offset: Vec2,
-}
-
-impl Mapping {
-    fn of(info: &Info) -> Self {
-        let transform = info
-            .extensions
-            .as_ref()
-            .and_then(|e| e.texture_transform.clone());
-        let TextureTransform {
-            offset,
-            rotation,
-            scale,
-            tex_coord,
-            ..
-        } = transform.unwrap_or_default();
-        Self {
-            set: tex_coord.unwrap_or(info.tex_coord),
-            scale: scale.0.into(),
-            turn: Vec2::from(rotation.0.sin_cos()),
-            offset: offset.0.into(),
-        }
-    }
-
-    /// Scaled, turned counterclockwise as seen with v downwards, moved.
-    ///
-    /// Source: Khronos Group, `KHR_texture_transform`, properties `scale`, `rotation`, `offset`.
-    pub(super) fn apply(&self, texcoord: Vec2) -> Vec2 {
-        let Vec2 { x: u, y: v } = texcoord * self.scale;
-        let Vec2 { x: sin, y: cos } = self.turn;
-        Vec2::new(cos * u + sin * v, cos * v - sin * u) + self.offset
-    }
+/// What a material reads of a vertex besides position, normal and colour.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Needs {
+    /// Numbers `n` of the sets `TEXCOORD_n` that [`Mesh::texcoords`](crate::scene::Mesh::texcoords) and
+    /// [`Mesh::texcoords_second`](crate::scene::Mesh::texcoords_second) are.
+    pub(super) sets: [Option<u32>; 2],
+    /// Tangents, along the set with this place in [`sets`](Self::sets).
+    pub(super) tangents: Option<u32>,
 }
 
 impl<'a> Materials<'a> {
@@ -70,43 +36,41 @@ impl<'a> Materials<'a> {
         Self {
             document,
             materials: Vec::new(),
-            mappings: Vec::new(),
+            needs: Vec::new(),
             places: HashMap::new(),
-            images: Vec::new(),
-            image_places: HashMap::new(),
+            textures: Textures::new(document),
         }
     }
 
-    /// The place of a material, read if it is new, and the texture coordinates that it needs. `place` is the JSON
-    /// path of the primitive.
+    /// The place of a material, read if it is new, and what it needs. `place` is the JSON path of the primitive.
     pub(super) fn intern(
         &mut self,
         index: Option<json::Index<json::Material>>,
         place: &str,
         warnings: &mut Warnings,
-    ) -> Result<(u32, Option<Mapping>)> {
+    ) -> Result<(u32, Needs)> {
         let key = index.map(|i| i.value());
         if let Some(&known) = self.places.get(&key) {
-            return Ok((known, self.mappings[known as usize].clone()));
+            return Ok((known, self.needs[known as usize]));
         }
-        let (material, mapping) = match key {
+        let (material, needs) = match key {
             Some(index) => {
                 let at = || format!("{place}.material");
                 let material = lookup(&self.document.root.materials, "materials", index, at)?;
                 self.read(material, index, warnings)?
             }
-            None => (Material::default(), None),
+            None => (Material::default(), Needs::default()),
         };
         let new = self.materials.len() as u32;
         self.materials.push(material);
-        self.mappings.push(mapping.clone());
+        self.needs.push(needs);
         self.places.insert(key, new);
-        Ok((new, mapping))
+        Ok((new, needs))
     }
 
     /// The materials, and the images of the file that their textures are.
     pub(super) fn finish(self) -> (Vec<Material>, Vec<usize>) {
-        (self.materials, self.images)
+        (self.materials, self.textures.into_images())
     }
 
     fn read(
@@ -114,86 +78,107 @@ impl<'a> Materials<'a> {
         source: &json::Material,
         index: usize,
         warnings: &mut Warnings,
-    ) -> Result<(Material, Option<Mapping>)> {
+    ) -> Result<(Material, Needs)> {
         let place = format!("materials[{index}]");
         note_ignored(source, warnings);
-        let mut material = factors(source, index, &place)?;
-        let pbr = &source.pbr_metallic_roughness;
-        let at = |slot| format!("{place}.pbrMetallicRoughness.{slot}");
-        let mut mapping = None;
-        if let Some(info) = &pbr.base_color_texture {
-            material.base_color_texture = self.texture(info, &at("baseColorTexture"), warnings)?;
-            mapping = material.base_color_texture.map(|_| Mapping::of(info));
-        }
-        if let Some(info) = &pbr.metallic_roughness_texture {
-            material.metallic_roughness_texture =
-                self.texture(info, &at("metallicRoughnessTexture"), warnings)?;
-            let own = material
-                .metallic_roughness_texture
-                .map(|_| Mapping::of(info));
-            if mapping.is_some() && own.is_some() && mapping != own {
-                warnings.add(
-                    "metallic-roughness textures with coordinates of their own take those of the base colour",
-                );
+        let anisotropy = Anisotropy::of(source, &place)?;
+        let mut material = factors(source, &anisotropy, index, &place)?;
+        let mut sets = Sets::default();
+        let mut texture = |info: Option<&Info>, slot: &str| match info {
+            Some(info) => {
+                let place = format!("{place}.{slot}");
+                self.textures
+                    .read(&info.into(), &mut sets, &place, warnings)
             }
-            mapping = mapping.or(own);
-        }
-        Ok((material, mapping))
-    }
-
-    fn texture(
-        &mut self,
-        info: &Info,
-        place: &str,
-        warnings: &mut Warnings,
-    ) -> Result<Option<TextureRef>> {
-        let root = &self.document.root;
-        let index = info.index.value();
-        let texture = lookup(&root.textures, "textures", index, || {
-            format!("{place}.index")
-        })?;
-        let source = texture.source.value();
-        // The parser's sign for "no source".
-        if source == u32::MAX as usize {
-            warnings.add("textures without a PNG or JPEG image are left out");
-            return Ok(None);
-        }
-        lookup(&root.images, "images", source, || {
-            format!("textures[{index}].source")
-        })?;
-        let sampler = match texture.sampler {
-            Some(sampler) => {
-                let at = || format!("textures[{index}].sampler");
-                lookup(&root.samplers, "samplers", sampler.value(), at)?.clone()
-            }
-            None => Sampler::default(),
+            None => Ok(None),
         };
-        let images = &mut self.images;
-        let image = *self.image_places.entry(source).or_insert_with(|| {
-            images.push(source);
-            (images.len() - 1) as u32
-        });
-        Ok(Some(TextureRef {
-            texture: image,
-            wrap: [wrap(sampler.wrap_s), wrap(sampler.wrap_t)],
-            filter: match sampler.mag_filter {
-                Some(Checked::Valid(MagFilter::Nearest)) => Filter::Nearest,
-                _ => Filter::Linear,
-            },
-        }))
+        let pbr = &source.pbr_metallic_roughness;
+        let specular = source.extensions.as_ref().and_then(|e| e.specular.as_ref());
+        material.base_color_texture = texture(
+            pbr.base_color_texture.as_ref(),
+            "pbrMetallicRoughness.baseColorTexture",
+        )?;
+        material.metallic_roughness_texture = texture(
+            pbr.metallic_roughness_texture.as_ref(),
+            "pbrMetallicRoughness.metallicRoughnessTexture",
+        )?;
+        material.emissive_texture = texture(source.emissive_texture.as_ref(), "emissiveTexture")?;
+        material.specular_texture = texture(
+            specular.and_then(|s| s.specular_texture.as_ref()),
+            "extensions.KHR_materials_specular.specularTexture",
+        )?;
+        material.specular_color_texture = texture(
+            specular.and_then(|s| s.specular_color_texture.as_ref()),
+            "extensions.KHR_materials_specular.specularColorTexture",
+        )?;
+        material.anisotropy_texture = texture(
+            anisotropy.texture.as_ref(),
+            "extensions.KHR_materials_anisotropy.anisotropyTexture",
+        )?;
+        if let Some(info) = &source.normal_texture {
+            let place = format!("{place}.normalTexture");
+            let used = Use::of_normal(info, &place)?;
+            material.normal_texture = self.textures.read(&used, &mut sets, &place, warnings)?;
+        }
+        let along = material.normal_texture.or(material.anisotropy_texture);
+        let tangents = match along {
+            Some(texture) => Some(texture.set),
+            None => (material.anisotropy > 0.0).then_some(0),
+        };
+        if tangents.is_some() {
+            // Tangents alone need coordinates too, even if no texture does.
+            sets.0[0].get_or_insert(0);
+        }
+        let needs = Needs {
+            sets: sets.0,
+            tangents,
+        };
+        Ok((material, needs))
     }
 }
 
-fn wrap(mode: Checked<WrappingMode>) -> Wrap {
-    match mode {
-        Checked::Valid(WrappingMode::ClampToEdge) => Wrap::Clamp,
-        Checked::Valid(WrappingMode::MirroredRepeat) => Wrap::Mirror,
-        Checked::Valid(WrappingMode::Repeat) | Checked::Invalid => Wrap::Repeat,
+/// `KHR_materials_anisotropy`, which the parser leaves as it is.
+#[derive(Default)]
+struct Anisotropy {
+    strength: f32,
+    rotation: f32,
+    texture: Option<Info>,
+}
+
+impl Anisotropy {
+    fn of(source: &json::Material, place: &str) -> Result<Self> {
+        const NAME: &str = "KHR_materials_anisotropy";
+        let others = source.extensions.as_ref().map(|e| &e.others);
+        let Some(value) = others.and_then(|others| others.get(NAME)) else {
+            return Ok(Self::default());
+        };
+        let broken = || {
+            let place = format!("{place}.extensions.{NAME}");
+            Fault::new(place, "is not what the extension says", BROKEN)
+        };
+        let number = |name: &str| match value.get(name) {
+            None => Ok(0.0),
+            Some(number) => number.as_f64().map(|n| n as f32).ok_or_else(broken),
+        };
+        let texture = value.get("anisotropyTexture").cloned();
+        Ok(Self {
+            strength: number("anisotropyStrength")?,
+            rotation: number("anisotropyRotation")?,
+            texture: texture
+                .map(json::deserialize::from_value)
+                .transpose()
+                .map_err(|_| broken())?,
+        })
     }
 }
 
 /// Everything but textures.
-fn factors(source: &json::Material, index: usize, place: &str) -> Result<Material> {
+fn factors(
+    source: &json::Material,
+    anisotropy: &Anisotropy,
+    index: usize,
+    place: &str,
+) -> Result<Material> {
     let pbr = &source.pbr_metallic_roughness;
     let extensions = source.extensions.as_ref();
     let specular = extensions
@@ -204,17 +189,23 @@ fn factors(source: &json::Material, index: usize, place: &str) -> Result<Materia
         .unwrap_or_default()
         .ior
         .0;
-    let [r, g, b, _] = pbr.base_color_factor.0;
-    let number = |name: &str, value: f32, most: f32| {
+    let strength = extensions
+        .and_then(|e| e.emissive_strength.clone())
+        .unwrap_or_default()
+        .emissive_strength
+        .0;
+    let [r, g, b, alpha] = pbr.base_color_factor.0;
+    let range = |name: &str, value: f32, least: f32, most: f32| {
         if value.is_finite() {
-            return Ok(value.clamp(0.0, most));
+            return Ok(value.clamp(least, most));
         }
         Err(Fault::new(
             format!("{place}.{name}"),
             format!("{value} is no number"),
-            "the file is broken; export it again",
+            BROKEN,
         ))
     };
+    let number = |name: &str, value: f32, most: f32| range(name, value, 0.0, most);
     let color = |name: &str, [r, g, b]: [f32; 3], most: f32| -> Result<[f32; 3]> {
         Ok([
             number(name, r, most)?,
@@ -222,12 +213,24 @@ fn factors(source: &json::Material, index: usize, place: &str) -> Result<Materia
             number(name, b, most)?,
         ])
     };
+    let strength = number("emissiveStrength", strength, EMISSION_MAX)?;
+    let emission = color("emissiveFactor", source.emissive_factor.0, 1.0)?;
+    let normal_scale = source.normal_texture.as_ref().map_or(1.0, |n| n.scale);
     Ok(Material {
         name: source
             .name
             .clone()
             .unwrap_or_else(|| format!("material {index}")),
         base_color: color("baseColorFactor", [r, g, b], 1.0)?,
+        alpha: number("baseColorFactor", alpha, 1.0)?,
+        alpha_cutoff: match source.alpha_mode {
+            Checked::Valid(AlphaMode::Mask) => {
+                let cutoff = source.alpha_cutoff.map_or(0.5, |c| c.0);
+                Some(number("alphaCutoff", cutoff, f32::MAX)?)
+            }
+            Checked::Valid(AlphaMode::Blend) => Some(BLEND_CUTOFF),
+            Checked::Valid(AlphaMode::Opaque) | Checked::Invalid => None,
+        },
         metallic: number("metallicFactor", pbr.metallic_factor.0, 1.0)?,
         roughness: number("roughnessFactor", pbr.roughness_factor.0, 1.0)?,
         specular: number("specularFactor", specular.specular_factor.0, 1.0)?,
@@ -237,10 +240,23 @@ fn factors(source: &json::Material, index: usize, place: &str) -> Result<Materia
             f32::MAX,
         )?,
         ior: refraction(number("ior", ior, f32::MAX)?),
-        base_color_texture: None,
-        metallic_roughness_texture: None,
+        emission: emission.map(|c| c * strength),
+        double_sided: source.double_sided,
+        unlit: extensions.is_some_and(|e| e.unlit.is_some()),
+        normal_scale: range("normalTexture.scale", normal_scale, -SCALE_MAX, SCALE_MAX)?,
+        anisotropy: number("anisotropyStrength", anisotropy.strength, 1.0)?,
+        anisotropy_rotation: range("anisotropyRotation", anisotropy.rotation, -1e6, 1e6)?,
+        ..Material::default()
     })
 }
+
+/// Where the opacity of a blended surface is less, it is left out.
+const BLEND_CUTOFF: f32 = 0.5;
+/// Largest strength of emission: sums of it stay numbers.
+const EMISSION_MAX: f32 = 1e30;
+/// Largest factor of a normal map.
+const SCALE_MAX: f32 = 1e6;
+const BROKEN: &str = "the file is broken; export it again";
 
 /// Index of refraction. 0 stands for infinity, where everything is reflected: so large that f32 shows no difference.
 ///

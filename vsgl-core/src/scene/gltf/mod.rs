@@ -12,7 +12,7 @@
 //! | `buffers`, `accessor` | elements of vertex attributes and indices |
 //! | `attributes`, `morph`, `topology`, `sharing`, `primitive` | triangles of one primitive in its own space |
 //! | `nodes`, `skins`, `instancing`, `frames`, `assemble` | the tree of nodes, and all triangles in one space |
-//! | `materials`, `images` | surfaces |
+//! | `materials`, `textures`, `images` | surfaces |
 //! | `lights`, `cameras` | what stands in the nodes besides meshes |
 
 mod accessor;
@@ -35,6 +35,7 @@ mod nodes;
 mod primitive;
 mod sharing;
 mod skins;
+mod textures;
 mod topology;
 mod uri;
 mod warnings;

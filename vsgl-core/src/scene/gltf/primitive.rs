@@ -6,7 +6,7 @@ use super::buffers::Buffers;
 use super::document::Document;
 use super::fault::{Fault, Result};
 use super::limits::Limits;
-use super::materials::{Mapping, Materials};
+use super::materials::Materials;
 use super::morph::{Morph, Shape};
 use super::sharing::{compact, unshared};
 use super::skins::Influences;
@@ -21,8 +21,8 @@ pub(super) struct Primitive {
     pub(super) positions: Vec<Vec3>,
     /// One a vertex, of any length; zero where the file has none that can be used.
     pub(super) normals: Vec<Vec3>,
-    /// One a vertex; empty if the material needs none.
-    pub(super) texcoords: Vec<Vec2>,
+    /// The first and the second set, one a vertex each; empty if the material does not read it.
+    pub(super) texcoords: [Vec<Vec2>; 2],
     /// One a vertex; empty if the file has none.
     pub(super) colors: Vec<Vec4>,
     /// Joints of the vertices, if it is to be bent.
@@ -107,11 +107,13 @@ impl<'a> Reader<'a> {
             None => Vec3::ZERO,
         });
         let normals = normals.collect();
-        let (material, mapping) = self.materials.intern(primitive.material, place, warnings)?;
-        let texcoords = match mapping {
-            Some(mapping) => texcoords(&attributes, &mapping, &sources, warnings)?,
-            None => Vec::new(),
-        };
+        let (material, needs) = self.materials.intern(primitive.material, place, warnings)?;
+        let mut sets = [Vec::new(), Vec::new()];
+        for (read, number) in sets.iter_mut().zip(needs.sets) {
+            if let Some(number) = number {
+                *read = texcoords(&attributes, number, &sources, warnings)?;
+            }
+        }
         let colors = attributes.colors(vertices)?;
         if colors.is_some() {
             // They are read, but no phase looks at them yet.
@@ -125,7 +127,7 @@ impl<'a> Reader<'a> {
         Ok(Some(Primitive {
             positions,
             normals,
-            texcoords,
+            texcoords: sets,
             colors: colors.map_or(Vec::new(), color),
             influences,
             triangles,
@@ -194,20 +196,20 @@ impl<'a> Reader<'a> {
 
 fn texcoords(
     attributes: &Attributes<'_, '_>,
-    mapping: &Mapping,
+    number: u32,
     sources: &[u32],
     warnings: &mut Warnings,
 ) -> Result<Vec<Vec2>> {
-    let semantic = Semantic::TexCoords(mapping.set);
+    let semantic = Semantic::TexCoords(number);
     let needed = sources.iter().max().map_or(0, |&last| last as usize + 1);
     let Some(texcoords) = attributes.full::<2>(semantic, needed)? else {
         warnings.add("textured surfaces without texture coordinates show one texel");
         return Ok(vec![Vec2::ZERO; sources.len()]);
     };
     let at = |&source| {
-        let mapped = mapping.apply(Vec2::from(texcoords.get(source)));
-        if mapped.is_finite() {
-            mapped
+        let texcoord = Vec2::from(texcoords.get(source));
+        if texcoord.is_finite() {
+            texcoord
         } else {
             Vec2::ZERO
         }

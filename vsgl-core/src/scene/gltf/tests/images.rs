@@ -1,6 +1,6 @@
 use super::*;
-use crate::scene::{Filter, TextureRef, Wrap};
-use glam::Vec2;
+use crate::scene::{Filter, Slot, TextureRef, Wrap};
+use glam::{Affine2, Vec2};
 use image::{ImageFormat, Rgba, RgbaImage};
 use std::io::Cursor;
 
@@ -55,12 +55,26 @@ fn samplers() {
         texture: 0,
         wrap: [Wrap::Clamp, Wrap::Mirror],
         filter: Filter::Nearest,
+        ..TextureRef::new(0)
     };
     assert_eq!(
         scene.materials[0].metallic_roughness_texture,
         Some(expected)
     );
     assert_eq!(scene.materials[0].base_color_texture, None);
+}
+
+#[test]
+fn only_samplers_that_name_mip_maps_use_them() {
+    for (filter, mips) in [(9728, false), (9729, false), (9984, true), (9987, true)] {
+        let scene = textured(r#"{"metallicRoughnessTexture":{"index":1,"texCoord":1}}"#)
+            .set("samplers", &format!(r#"[{{"minFilter":{filter}}}]"#))
+            .beside("a.png", &png())
+            .load()
+            .unwrap();
+        let texture = scene.materials[0].metallic_roughness_texture.unwrap();
+        assert_eq!(texture.mips, mips, "{filter}");
+    }
 }
 
 #[test]
@@ -87,7 +101,8 @@ fn transforms_turn_the_right_way() {
         .beside("a.png", &png())
         .load()
         .unwrap();
-    assert!(scene.mesh.texcoords[0].distance(Vec2::splat(0.7778175)) < 1e-5);
+    let mapped = base_transform(&scene).transform_point2(scene.mesh.texcoords[0]);
+    assert!(mapped.distance(Vec2::splat(0.7778175)) < 1e-5);
 }
 
 #[test]
@@ -104,9 +119,61 @@ fn transforms_scale_then_turn_then_move() {
         Vec2::new(0.25, -1.5),
         Vec2::new(3.25, 0.5),
     ];
-    for (read, expected) in scene.mesh.texcoords.iter().zip(expected) {
-        assert!(read.distance(expected) < 1e-6, "{read} {expected}");
+    assert_eq!(scene.mesh.texcoords, [Vec2::ZERO, Vec2::X, Vec2::Y]);
+    for (&read, expected) in scene.mesh.texcoords.iter().zip(expected) {
+        let mapped = base_transform(&scene).transform_point2(read);
+        assert!(mapped.distance(expected) < 1e-6, "{mapped} {expected}");
     }
+}
+
+fn base_transform(scene: &Scene) -> Affine2 {
+    scene.materials[0].base_color_texture.unwrap().transform
+}
+
+#[test]
+fn transforms_beyond_numbers_are_refused() {
+    for broken in [
+        "\"scale\":[1e30,1]",
+        "\"offset\":[0,-1e13]",
+        "\"rotation\":1e20",
+    ] {
+        let material = format!(
+            r#"{{"baseColorTexture":{{"index":0,"extensions":{{"KHR_texture_transform":{{{broken}}}}}}}}}"#
+        );
+        let place =
+            "materials[0].pbrMetallicRoughness.baseColorTexture.extensions.KHR_texture_transform";
+        refused_at(place, textured(&material).beside("a.png", &png()));
+    }
+}
+
+#[test]
+fn a_material_reads_two_sets_and_says_so_of_a_third() {
+    let mut file = textured(
+        r#"{"baseColorTexture":{"index":0,"texCoord":1},"metallicRoughnessTexture":{"index":0,"texCoord":4}},
+        "emissiveTexture":{"index":0,"texCoord":4},
+        "normalTexture":{"index":0,"texCoord":2,"extensions":{"KHR_texture_transform":{"texCoord":1,"scale":[2,2]}}},
+        "extensions":{"KHR_materials_specular":{"specularTexture":{"index":0,"texCoord":3}}"#,
+    );
+    file.floats(&[[0.5, 0.25]; 3], "VEC2");
+    let mesh = r#"[{"primitives":[{"attributes":{"POSITION":0,"TEXCOORD_1":2,"TEXCOORD_4":3},"indices":1,"material":0}]}]"#;
+    let materials = file.json["materials"].replacen("}]", "}}]", 1);
+    let scene = file
+        .set("meshes", mesh)
+        .set("materials", &materials)
+        .beside("a.png", &png())
+        .load()
+        .unwrap();
+    let material = &scene.materials[0];
+    let sets = Slot::ALL.map(|slot| material.texture(slot).map(|texture| texture.set));
+    assert_eq!(
+        sets,
+        [Some(0), Some(1), Some(0), Some(1), Some(0), None, None]
+    );
+    let scale = material.normal_texture.unwrap().transform.matrix2;
+    assert_eq!(scale, glam::Mat2::from_diagonal(Vec2::splat(2.0)));
+    assert_eq!(scene.mesh.texcoords, [Vec2::ZERO, Vec2::X, Vec2::Y]);
+    assert_eq!(scene.mesh.texcoords_second, [Vec2::new(0.5, 0.25); 3]);
+    assert!(scene.warnings.iter().any(|w| w.contains("a third")));
 }
 
 #[test]

@@ -47,6 +47,48 @@ fn specular_and_refraction() {
 }
 
 #[test]
+fn what_shines_what_lets_through_and_what_is_not_lit() {
+    let read = material(
+        r#"{"emissiveFactor":[1,0.5,0],"doubleSided":true,"alphaMode":"MASK","alphaCutoff":0.25,
+        "pbrMetallicRoughness":{"baseColorFactor":[1,1,1,0.75]},
+        "extensions":{"KHR_materials_emissive_strength":{"emissiveStrength":8},"KHR_materials_unlit":{},
+        "KHR_materials_anisotropy":{"anisotropyStrength":0.5,"anisotropyRotation":-1.5}}}"#,
+    )
+    .unwrap();
+    assert_eq!(read.emission, [8.0, 4.0, 0.0]);
+    assert!(read.double_sided && read.unlit);
+    assert_eq!((read.alpha, read.alpha_cutoff), (0.75, Some(0.25)));
+    assert_eq!((read.anisotropy, read.anisotropy_rotation), (0.5, -1.5));
+    assert_eq!(
+        material(r#"{"alphaMode":"MASK"}"#).unwrap().alpha_cutoff,
+        Some(0.5)
+    );
+    assert_eq!(
+        material(r#"{"alphaMode":"BLEND"}"#).unwrap().alpha_cutoff,
+        Some(0.5)
+    );
+    assert_eq!(
+        material(r#"{"alphaCutoff":0.1}"#).unwrap().alpha_cutoff,
+        None
+    );
+}
+
+#[test]
+fn extensions_that_the_parser_leaves_alone_are_checked() {
+    for broken in [
+        r#"{"anisotropyStrength":"much"}"#,
+        r#"{"anisotropyTexture":7}"#,
+    ] {
+        let json = format!(r#"{{"extensions":{{"KHR_materials_anisotropy":{broken}}}}}"#);
+        let error = material(&json).expect_err("refused").to_string();
+        assert!(
+            error.contains("materials[0].extensions.KHR_materials_anisotropy"),
+            "{error}"
+        );
+    }
+}
+
+#[test]
 fn factors_out_of_range_are_clamped_and_infinite_ones_refused() {
     let read = material(
         r#"{"pbrMetallicRoughness":{"baseColorFactor":[-1,7,0.5,1],"metallicFactor":2,"roughnessFactor":-3}}"#,
@@ -80,6 +122,7 @@ fn what_is_ignored_is_said_once() {
     let scene = File::triangle()
         .set("meshes", mesh)
         .set("materials", &format!("[{one},{one}]"))
+        .set("textures", "[{}]")
         .set(
             "extensionsUsed",
             r#"["KHR_materials_sheen","KHR_materials_sheen"]"#,
@@ -93,6 +136,7 @@ fn what_is_ignored_is_said_once() {
             "alpha blending is ignored: drawn opaque",
             "normal maps are ignored",
             "emission is ignored: surfaces do not shine",
+            "textures without a PNG or JPEG image are left out",
             "vertex colours are ignored",
         ]
     );
