@@ -35,6 +35,7 @@ mod nodes;
 mod primitive;
 mod sharing;
 mod skins;
+mod tangents;
 mod textures;
 mod topology;
 mod uri;
