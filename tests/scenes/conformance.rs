@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
+use vsgl_core::glam::Vec4;
 use vsgl_core::scene::{Scene, Slot, gltf};
 
 enum Expected {
@@ -347,6 +348,13 @@ pub(crate) fn check(scene: &Scene, name: &str) {
     );
     assert!(mesh.positions.iter().all(|p| p.is_finite()), "{name}");
     assert!(mesh.normals.iter().all(|n| n.is_normalized()), "{name}");
+    for tangent in mesh.tangents.iter().filter(|t| **t != Vec4::ZERO) {
+        assert!(tangent.truncate().is_normalized(), "{name}");
+        assert!(tangent.w.abs() == 1.0, "{name}");
+    }
+    let share = |c: f32| (0.0..=1.0).contains(&c);
+    let mut colors = mesh.colors.iter().flat_map(|c| c.to_array());
+    assert!(colors.all(share), "{name}");
     assert!(mesh.texcoords.iter().all(|t| t.is_finite()), "{name}");
     for material in &scene.materials {
         for texture in Slot::ALL.iter().filter_map(|&slot| material.texture(slot)) {

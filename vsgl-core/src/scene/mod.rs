@@ -70,7 +70,8 @@ pub struct Mesh {
     /// A second set of texture coordinates, one a vertex; empty where no material reads it.
     pub texcoords_second: Vec<Vec2>,
     /// Unit tangents along increasing u of the texture coordinates of the normal map, w: +1 or -1, the sign of the
-    /// bitangent `w (normal × tangent)`. One a vertex; empty where no material has a normal map or anisotropy.
+    /// bitangent `w (normal × tangent)`, which points along decreasing v. Zero where a vertex has none that can be used.
+    /// One a vertex; empty where no material has a normal map or anisotropy.
     pub tangents: Vec<Vec4>,
     /// Linear colours, red, green, blue, alpha, that base colours are multiplied by; one a vertex. Empty where no
     /// object has them.

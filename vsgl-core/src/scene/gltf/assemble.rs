@@ -206,6 +206,7 @@ struct Size {
     vertices: u64,
     /// Whether there is a first and a second set of texture coordinates.
     textured: [bool; 2],
+    tangents: bool,
     colored: bool,
 }
 
@@ -226,6 +227,7 @@ impl Size {
                 any(|p| !p.texcoords[0].is_empty()),
                 any(|p| !p.texcoords[1].is_empty()),
             ],
+            tangents: any(|p| !p.tangents.is_empty()),
             colored: any(|p| !p.colors.is_empty()),
         }
     }
@@ -244,6 +246,9 @@ fn join(instances: &[Instance<'_>], origin: DVec3, size: &Size) -> Mesh {
     }
     if size.textured[1] {
         mesh.texcoords_second.reserve_exact(vertices);
+    }
+    if size.tangents {
+        mesh.tangents.reserve_exact(vertices);
     }
     if size.colored {
         mesh.colors.reserve_exact(vertices);
@@ -273,6 +278,12 @@ fn append(mesh: &mut Mesh, primitive: &Primitive, frame: &Frame<'_>, origin: DVe
             all.extend(&primitive.texcoords[i]);
             all.resize(count, Vec2::ZERO);
         }
+    }
+    if size.tangents {
+        let tangents = primitive.tangents.iter().enumerate();
+        mesh.tangents
+            .extend(tangents.map(|(v, t)| turn.at(v).tangent(*t)));
+        mesh.tangents.resize(count, Vec4::ZERO);
     }
     if size.colored {
         mesh.colors.extend(&primitive.colors);

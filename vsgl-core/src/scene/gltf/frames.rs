@@ -3,7 +3,7 @@
 use super::instancing::Copies;
 use super::primitive::Primitive;
 use super::skins::Influences;
-use glam::{DMat3, DMat4, DVec3, Vec3};
+use glam::{DMat3, DMat4, DVec3, Vec3, Vec4};
 
 /// What brings the vertices of a primitive to the world.
 pub(super) enum Frames<'a> {
@@ -78,6 +78,8 @@ impl<'a> Turn<'a> {
 /// What turns directions when a matrix moves points.
 #[derive(Clone, Copy)]
 pub(super) struct Directions {
+    /// What the matrix does to differences of points.
+    linear: DMat3,
     /// The matrix of cofactors is the inverse transpose times the determinant, and exists where the inverse does not.
     cofactors: DMat3,
     /// Whether left and right change sides.
@@ -94,6 +96,7 @@ impl Directions {
         let cofactors = DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y));
         let mirrored = x.dot(y.cross(z)) < 0.0;
         Self {
+            linear: DMat3::from_cols(x, y, z),
             cofactors: if mirrored { -cofactors } else { cofactors },
             mirrored,
         }
@@ -103,5 +106,12 @@ impl Directions {
     pub(super) fn normal(&self, normal: Vec3) -> Vec3 {
         let turned = (self.cofactors * normal.as_dvec3()).try_normalize();
         turned.map_or(Vec3::ZERO, |n| n.as_vec3().normalize_or_zero())
+    }
+
+    /// A tangent, turned, of length 1; its bitangent changes sides in a mirror. Zero if it points nowhere.
+    pub(super) fn tangent(&self, tangent: Vec4) -> Vec4 {
+        let turned = (self.linear * tangent.truncate().as_dvec3()).try_normalize();
+        let sign = if self.mirrored { -tangent.w } else { tangent.w };
+        turned.map_or(Vec4::ZERO, |t| t.as_vec3().normalize_or_zero().extend(sign))
     }
 }

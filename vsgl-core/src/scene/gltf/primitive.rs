@@ -1,7 +1,7 @@
 //! Triangles of one primitive, in the space of its mesh.
 
 use super::accessor::Indices;
-use super::attributes::{Attributes, Colors};
+use super::attributes::Attributes;
 use super::buffers::Buffers;
 use super::document::Document;
 use super::fault::{Fault, Result};
@@ -10,6 +10,7 @@ use super::materials::Materials;
 use super::morph::{Morph, Shape};
 use super::sharing::{compact, unshared};
 use super::skins::Influences;
+use super::tangents::{self, Surface};
 use super::topology::Topology;
 use super::warnings::Warnings;
 use glam::{DVec3, Vec2, Vec3, Vec4};
@@ -23,6 +24,8 @@ pub(super) struct Primitive {
     pub(super) normals: Vec<Vec3>,
     /// The first and the second set, one a vertex each; empty if the material does not read it.
     pub(super) texcoords: [Vec<Vec2>; 2],
+    /// One a vertex, w the sign of the bitangent; zero where there is none. Empty if the material reads none.
+    pub(super) tangents: Vec<Vec4>,
     /// One a vertex; empty if the file has none.
     pub(super) colors: Vec<Vec4>,
     /// Joints of the vertices, if it is to be bent.
@@ -30,6 +33,39 @@ pub(super) struct Primitive {
     pub(super) triangles: Vec<[u32; 3]>,
     /// Index into the scene's materials.
     pub(super) material: u32,
+}
+
+impl Primitive {
+    /// Makes tangents along a set of texture coordinates. Returns the vertices that were doubled, because their triangles
+    /// have different ones; the doubles stand at the end.
+    fn make_tangents(&mut self, set: usize) -> Vec<u32> {
+        let surface = Surface {
+            positions: &self.positions,
+            normals: &self.normals,
+            texcoords: &self.texcoords[set],
+            triangles: &self.triangles,
+        };
+        let corners = tangents::tangents(&surface);
+        let vertices = self.positions.len();
+        let (tangents, doubled) = tangents::split(vertices, &mut self.triangles, &corners);
+        self.tangents = tangents;
+        double(&mut self.positions, &doubled);
+        double(&mut self.normals, &doubled);
+        for set in &mut self.texcoords {
+            if !set.is_empty() {
+                double(set, &doubled);
+            }
+        }
+        doubled
+    }
+}
+
+/// Appends copies of the elements at `places`.
+fn double<T: Copy>(list: &mut Vec<T>, places: &[u32]) {
+    list.reserve(places.len());
+    for &place in places {
+        list.push(list[place as usize]);
+    }
 }
 
 /// What reading a primitive needs besides itself.
@@ -96,43 +132,64 @@ impl<'a> Reader<'a> {
         let normals = normals
             .map(|normals| morph.apply(normals, &Semantic::Normals, of, limits, used))
             .transpose()?;
-        let (triangles, sources) = match &normals {
+        let (triangles, mut sources) = match &normals {
             Some(_) => compact(triangles, vertices),
             None => unshared(triangles),
         };
         let at = |&source: &u32| Vec3::from(positions.get(source));
-        let positions = sources.iter().map(at).collect();
-        let normals = sources.iter().map(|&source| match &normals {
+        let normal = |&source: &u32| match &normals {
             Some(normals) => usable(Vec3::from(normals.get(source))),
             None => Vec3::ZERO,
-        });
-        let normals = normals.collect();
-        let (material, needs) = self.materials.intern(primitive.material, place, warnings)?;
-        let mut sets = [Vec::new(), Vec::new()];
-        for (read, number) in sets.iter_mut().zip(needs.sets) {
-            if let Some(number) = number {
-                *read = texcoords(&attributes, number, &sources, warnings)?;
-            }
-        }
-        let colors = attributes.colors(vertices)?;
-        if colors.is_some() {
-            // They are read, but no phase looks at them yet.
-            warnings.add("vertex colours are ignored");
-        }
-        let color = |colors: Colors<'_>| sources.iter().map(|&s| colors.get(s)).collect();
-        let influences = match form.bent {
-            true => Influences::read(&attributes, vertices, &sources)?,
-            false => None,
         };
-        Ok(Some(Primitive {
-            positions,
-            normals,
-            texcoords: sets,
-            colors: colors.map_or(Vec::new(), color),
-            influences,
+        let (material, needs) = self.materials.intern(primitive.material, place, warnings)?;
+        let mut read = Primitive {
+            positions: sources.iter().map(at).collect(),
+            normals: sources.iter().map(normal).collect(),
+            texcoords: [Vec::new(), Vec::new()],
+            tangents: Vec::new(),
+            colors: Vec::new(),
+            influences: None,
             triangles,
             material,
-        }))
+        };
+        for (set, number) in read.texcoords.iter_mut().zip(needs.sets) {
+            if let Some(number) = number {
+                *set = texcoords(&attributes, number, &sources, warnings)?;
+            }
+        }
+        if let Some(set) = needs.tangents {
+            // Without normals those of the file mean nothing.
+            let given = match normals {
+                Some(_) => attributes.full::<4>(Semantic::Tangents, vertices)?,
+                None => None,
+            };
+            let used = &mut self.displacements;
+            let of = |target: &MorphTarget| target.tangents;
+            let given = given
+                .map(|given| morph.apply(given, &Semantic::Tangents, of, limits, used))
+                .transpose()?;
+            match given {
+                Some(given) => {
+                    let tangent = |&source: &u32| usable_tangent(given.get(source));
+                    read.tangents = sources.iter().map(tangent).collect();
+                }
+                None => {
+                    let doubled = read.make_tangents(set as usize);
+                    self.vertices += doubled.len() as u64;
+                    check_vertices(self.vertices, self.limits, place)?;
+                    double(&mut sources, &doubled);
+                }
+            }
+        }
+        if let Some(colors) = attributes.colors(vertices)? {
+            // They are read, but no phase looks at them yet.
+            warnings.add("vertex colours are ignored");
+            read.colors = sources.iter().map(|&s| colors.get(s)).collect();
+        }
+        if form.bent {
+            read.influences = Influences::read(&attributes, vertices, &sources)?;
+        }
+        Ok(Some(read))
     }
 
     /// Triangles that have an area, as indices of the file's vertices; all of them if they will yet be bent.
@@ -281,6 +338,12 @@ fn usable(normal: Vec3) -> Vec3 {
     } else {
         Vec3::ZERO
     }
+}
+
+/// A tangent of length 1 with a sign, or zero if it points nowhere.
+fn usable_tangent([x, y, z, w]: [f32; 4]) -> Vec4 {
+    let unit = DVec3::new(x.into(), y.into(), z.into()).try_normalize();
+    unit.map_or(Vec4::ZERO, |t| t.as_vec3().extend(1f32.copysign(w)))
 }
 
 /// Twice the area of a triangle along its normal. Zero for a line or a point: the corners are f32, this is f64.

@@ -261,3 +261,65 @@ fn instancing_that_cannot_be() {
     assert_eq!(place, "scene");
     assert!(message.contains("triangles"), "{message}");
 }
+
+/// The triangle with normals, texture coordinates as an upright image has them, and a material with a normal map.
+fn mapped(attributes: &str, node: &str) -> File {
+    let mut file = File::triangle();
+    file.floats(&[[0.0, 0.0, 1.0]; 3], "VEC3");
+    file.floats(&[[0.0, 1.0], [1.0, 1.0], [0.0, 0.0]], "VEC2");
+    file.accessor(&bytes_of(&[[0i8, 127, 0, -127]; 3]), 5120, 3, "VEC4");
+    file.json.insert(
+        "accessors",
+        file.json["accessors"].replace("5120,", "5120,\"normalized\":true,"),
+    );
+    let mesh = format!(
+        r#"[{{"primitives":[{{"attributes":{{"POSITION":0{attributes}}},"indices":1,"material":0}}]}}]"#
+    );
+    let image = format!(r#"[{{"uri":"data:image/png;base64,{ONE_TEXEL}"}}]"#);
+    file.set("meshes", &mesh)
+        .set("nodes", &format!(r#"[{{{node}"mesh":0}}]"#))
+        .set(
+            "materials",
+            r#"[{"normalTexture":{"index":0,"texCoord":1}}]"#,
+        )
+        .set("textures", r#"[{"source":0}]"#)
+        .set("images", &image)
+}
+
+/// A PNG of one texel.
+const ONE_TEXEL: &str = "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNkYPhfDwAChwGA60e6kgAAAABJRU5ErkJggg==";
+
+const BOTH: &str = r#","NORMAL":2,"TEXCOORD_1":3"#;
+
+#[test]
+fn tangents_are_made_where_a_material_needs_them() {
+    for attributes in [BOTH, r#","TEXCOORD_1":3"#] {
+        let scene = mapped(attributes, "").load().unwrap();
+        assert_eq!(scene.mesh.tangents, [Vec4::new(1.0, 0.0, 0.0, 1.0); 3]);
+    }
+    let plain = mapped(BOTH, "").set("materials", "[{}]").load().unwrap();
+    assert!(plain.mesh.tangents.is_empty());
+    let without = mapped("", "").load().unwrap();
+    assert_eq!(without.mesh.tangents, [Vec4::ZERO; 3]);
+}
+
+#[test]
+fn tangents_of_the_file_turn_with_the_node() {
+    let given = format!(r#"{BOTH},"TANGENT":4"#);
+    let scene = mapped(&given, "").load().unwrap();
+    assert_eq!(scene.mesh.tangents, [Vec4::new(0.0, 1.0, 0.0, -1.0); 3]);
+    let node = r#""rotation":[0,0,0.70710678118,0.70710678118],"scale":[1,-3,1],"#;
+    let mirrored = mapped(&given, node).load().unwrap().mesh.tangents;
+    assert!(
+        mirrored
+            .iter()
+            .all(|t| t.distance(Vec4::new(1.0, 0.0, 0.0, 1.0)) < 1e-6)
+    );
+    // Made ones are the same as if the mirror had been there when they were made.
+    let made = mapped(BOTH, node).load().unwrap().mesh.tangents;
+    assert!(
+        made.iter()
+            .all(|t| t.distance(Vec4::new(0.0, 1.0, 0.0, -1.0)) < 1e-6),
+        "{made:?}"
+    );
+}
