@@ -3,6 +3,7 @@
 use crate::texts::{
     Single, block_vpl, block_vsgl, cluster, plan, point, receivers, single_vpl, single_vsgl,
 };
+use vsgl_core::plan::ShadePlan;
 use vsgl_core::settings::{DiffuseForm, Emission, GlossyForm};
 use vsgl_cpu::block::{Receivers, Sums};
 use vsgl_tests::random::Random;
@@ -28,22 +29,36 @@ fn same(name: &str, sums: &Sums, lane: usize, single: &Single) {
     }
 }
 
+/// The plan with one roughness everywhere, and with two.
+fn roughnesses(plan: ShadePlan) -> [ShadePlan; 2] {
+    let two = ShadePlan {
+        anisotropic_receivers: true,
+        anisotropic_senders: true,
+        ..plan.clone()
+    };
+    [plan, two]
+}
+
+fn clusters_by(plan: &ShadePlan) {
+    let mut random = Random(7);
+    for round in 0..ROUNDS {
+        let single = receivers(&mut random);
+        let (d, s) = cluster(&mut random);
+        let sums = block_vsgl(&d, &s, &Receivers::new(&single), plan);
+        for (lane, receiver) in single.iter().enumerate() {
+            let one = single_vsgl(&d, &s, receiver, plan);
+            same(&format!("{plan:?} {round} {lane}"), &sums, lane, &one);
+        }
+    }
+}
+
 #[test]
 fn clusters() {
     for &emission in Emission::ALL {
         for &diffuse in DiffuseForm::ALL {
             for &glossy in GlossyForm::ALL {
-                let plan = plan(emission, diffuse, glossy);
-                let mut random = Random(7);
-                for round in 0..ROUNDS {
-                    let single = receivers(&mut random);
-                    let (d, s) = cluster(&mut random);
-                    let sums = block_vsgl(&d, &s, &Receivers::new(&single), &plan);
-                    for (lane, receiver) in single.iter().enumerate() {
-                        let one = single_vsgl(&d, &s, receiver, &plan);
-                        let name = format!("{emission} {diffuse} {glossy} {round} {lane}");
-                        same(&name, &sums, lane, &one);
-                    }
+                for plan in roughnesses(plan(emission, diffuse, glossy)) {
+                    clusters_by(&plan);
                 }
             }
         }
@@ -52,19 +67,20 @@ fn clusters() {
 
 #[test]
 fn points() {
-    let plan = plan(Emission::Cosine, DiffuseForm::V13, GlossyForm::NdfFilter);
-    let mut random = Random(8);
-    for round in 0..4 * ROUNDS {
-        let single = receivers(&mut random);
-        let light = point(&mut random);
-        let sums = block_vpl(&light, &Receivers::new(&single), &plan);
-        for (lane, receiver) in single.iter().enumerate() {
-            same(
-                &format!("{round} {lane}"),
-                &sums,
-                lane,
-                &single_vpl(&light, receiver),
-            );
+    for plan in roughnesses(plan(
+        Emission::Cosine,
+        DiffuseForm::V13,
+        GlossyForm::NdfFilter,
+    )) {
+        let mut random = Random(8);
+        for round in 0..4 * ROUNDS {
+            let single = receivers(&mut random);
+            let light = point(&mut random);
+            let sums = block_vpl(&light, &Receivers::new(&single), &plan);
+            for (lane, receiver) in single.iter().enumerate() {
+                let one = single_vpl(&light, receiver, &plan);
+                same(&format!("{round} {lane}"), &sums, lane, &one);
+            }
         }
     }
 }

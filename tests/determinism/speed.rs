@@ -133,7 +133,7 @@ fn blocks_of_points_are_fast() {
         for _ in 0..repeats {
             for r in singles.as_flattened() {
                 for light in &lights {
-                    black_box(single_vpl(black_box(light), black_box(r)));
+                    black_box(single_vpl(black_box(light), black_box(r), &plan));
                 }
             }
         }

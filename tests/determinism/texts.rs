@@ -23,6 +23,8 @@ pub(crate) fn plan(emission: Emission, diffuse: DiffuseForm, glossy: GlossyForm)
         bounce: true,
         glossy_receivers: true,
         glossy_senders: true,
+        anisotropic_receivers: false,
+        anisotropic_senders: false,
         emission,
         diffuse,
         glossy,
@@ -33,7 +35,7 @@ pub(crate) fn plan(emission: Emission, diffuse: DiffuseForm, glossy: GlossyForm)
 /// The forms of points are no choice of the plan.
 enum Forms<'a> {
     Lobe(&'a ShadePlan),
-    Point,
+    Point(&'a ShadePlan),
 }
 
 #[inline(always)]
@@ -50,8 +52,30 @@ fn reflect(sum: &mut Single, arriving: &Incoming, receiver: &Receiver, forms: &F
         _ => shade::lambert_constant(arriving, receiver),
     };
     sum.diffuse += arriving.strength * lambert;
-    let surface = GlossyView::new(receiver.view, receiver.normal, receiver.alpha);
     let specular = match forms {
+        Forms::Lobe(plan) if plan.anisotropic_receivers => {
+            let surface = shade::anisotropic_view(receiver);
+            match plan.glossy {
+                GlossyForm::NdfFilter => shade::anisotropic_masked(arriving, &surface),
+                GlossyForm::NdfFilter2024 => shade::anisotropic_2024(arriving, &surface),
+                GlossyForm::Asg2013 => shade::anisotropic_asg_2013(arriving, receiver),
+            }
+        }
+        Forms::Point(plan) if plan.anisotropic_receivers => {
+            shade::anisotropic_point(arriving, receiver)
+        }
+        _ => isotropic(arriving, receiver, forms),
+    };
+    let reflected = arriving.strength * specular;
+    let grazing = reflected * shade::fresnel_weight(arriving, receiver);
+    sum.near += reflected - grazing;
+    sum.grazing += grazing;
+}
+
+#[inline(always)]
+fn isotropic(arriving: &Incoming, receiver: &Receiver, forms: &Forms<'_>) -> f32 {
+    let surface = GlossyView::new(receiver.view, receiver.normal, receiver.alpha);
+    match forms {
         Forms::Lobe(ShadePlan {
             glossy: GlossyForm::NdfFilter,
             ..
@@ -64,12 +88,8 @@ fn reflect(sum: &mut Single, arriving: &Incoming, receiver: &Receiver, forms: &F
             glossy: GlossyForm::Asg2013,
             ..
         }) => shade::glossy_asg_2013(arriving, receiver),
-        Forms::Point => shade::glossy_point(arriving, receiver),
-    };
-    let reflected = arriving.strength * specular;
-    let grazing = reflected * shade::fresnel_weight(arriving, receiver);
-    sum.near += reflected - grazing;
-    sum.grazing += grazing;
+        Forms::Point(_) => shade::glossy_point(arriving, receiver),
+    }
 }
 
 /// One receiver under one cluster, compiled for the baseline machine.
@@ -85,7 +105,12 @@ pub(crate) fn single_vsgl(
     let (diffuse, specular) = match plan.emission {
         Emission::Cosine => (
             shade::incoming_diffuse(d, r.position, r.normal),
-            shade::incoming_specular(s, &shade::sender_view(s), r.position, r.normal),
+            if plan.anisotropic_senders {
+                let sender = shade::anisotropic_sender_view(s);
+                shade::incoming_specular(s, &sender, r.position, r.normal)
+            } else {
+                shade::incoming_specular(s, &shade::sender_view(s), r.position, r.normal)
+            },
         ),
         Emission::Sg => (
             shade::incoming_sg(
@@ -113,14 +138,14 @@ pub(crate) fn single_vsgl(
 
 /// One receiver under one point light, compiled for the baseline machine.
 #[inline(never)]
-pub(crate) fn single_vpl(light: &PointSender, r: &Receiver) -> Single {
+pub(crate) fn single_vpl(light: &PointSender, r: &Receiver, plan: &ShadePlan) -> Single {
     let mut sum = Single::default();
-    reflect(
-        &mut sum,
-        &shade::incoming_point(light, r.position),
-        r,
-        &Forms::Point,
-    );
+    let arriving = if plan.anisotropic_senders {
+        shade::incoming_anisotropic_point(light, r.position)
+    } else {
+        shade::incoming_point(light, r.position)
+    };
+    reflect(&mut sum, &arriving, r, &Forms::Point(plan));
     sum
 }
 
@@ -172,6 +197,8 @@ pub(crate) fn receiver(random: &mut Random) -> Receiver {
         f0: number(random, &[0.0, 1.0], 0.0, 0.1),
         f90: number(random, &[0.0, 1.0], 0.0, 1.0),
         alpha: number(random, &[0.0, 1e-6, 1.0], 0.01, 1.0),
+        tangent: random.direction(),
+        across: number(random, &[0.0, 1e-6, 1.0], 0.01, 1.0),
     }
 }
 
@@ -230,7 +257,8 @@ pub(crate) fn cluster(random: &mut Random) -> (DiffuseVsgl, SpecularVsgl) {
         covariance: covariance(random, variance),
         complement_mirror: number(random, &[0.0, 1e-12, 1.0], 0.0, 1.0),
         bulge: random.between(-0.2, 0.2) * variance.sqrt(),
-        padding: [0.0; 2],
+        across: number(random, &[0.0, 1e-6, 1.0], 0.01, 1.0),
+        turn: random.between(-1.0, 1.0),
     };
     (diffuse, specular)
 }
@@ -248,5 +276,7 @@ pub(crate) fn point(random: &mut Random) -> PointSender {
         f0: color(random).into(),
         f90: color(random).into(),
         alpha: number(random, &[0.0, 1e-6, 1.0], 0.01, 1.0),
+        across: number(random, &[0.0, 1e-6, 1.0], 0.01, 1.0),
+        turn: random.between(-1.0, 1.0),
     }
 }

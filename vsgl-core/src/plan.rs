@@ -36,6 +36,8 @@ pub struct Reason {
 pub struct GBufferPlan {
     /// Write the specular columns.
     pub glossy: bool,
+    /// Write tangents and the second roughness.
+    pub anisotropic: bool,
     /// Read textures.
     pub textures: bool,
     /// What decides which triangle a sample sees.
@@ -60,6 +62,8 @@ pub struct RsmPlan {
     pub size: u32,
     /// Write the specular columns.
     pub glossy: bool,
+    /// Write tangents and the second roughness.
+    pub anisotropic: bool,
     /// Read textures.
     pub textures: bool,
 }
@@ -92,6 +96,8 @@ pub struct ClusterPlan {
     pub variance: Variance,
     /// Make specular lights.
     pub glossy: bool,
+    /// Give them two roughnesses.
+    pub anisotropic: bool,
 }
 
 /// Shading.
@@ -103,6 +109,10 @@ pub struct ShadePlan {
     pub glossy_receivers: bool,
     /// The senders' specular part.
     pub glossy_senders: bool,
+    /// Two roughnesses of the receivers' specular part.
+    pub anisotropic_receivers: bool,
+    /// Two roughnesses of the senders' specular part.
+    pub anisotropic_senders: bool,
     /// Shape of the light sent.
     pub emission: Emission,
     /// The receivers' Lambert integral.
@@ -149,6 +159,30 @@ impl Plan {
             )],
             "glossy surfaces in front of the camera",
         );
+        let stretched = receivers
+            && reasons.decide(
+                "two roughnesses of the receivers",
+                &[(
+                    facts.anisotropic_receivers,
+                    "no anisotropic surface in front of the camera",
+                )],
+                "anisotropic surfaces in front of the camera",
+            );
+        let stretching = senders
+            && reasons.decide(
+                "two roughnesses of the lights",
+                &[
+                    (
+                        facts.anisotropic_senders,
+                        "no anisotropic surface within reach of the lights",
+                    ),
+                    (
+                        settings.emission == Emission::Cosine || settings.method == Method::Vpl,
+                        "one spherical Gaussian a light has one sharpness",
+                    ),
+                ],
+                "anisotropic surfaces within reach of the lights",
+            );
         let textures = reasons.decide(
             "texture reads",
             &[(facts.textures, "no material has a texture")],
@@ -187,6 +221,7 @@ impl Plan {
             rsm: RsmPlan {
                 size: settings.rsm,
                 glossy: senders,
+                anisotropic: stretching,
                 textures,
             },
             pdf: samples.then_some(PdfPlan {
@@ -202,12 +237,15 @@ impl Plan {
                 sharpness: settings.sharpness,
                 variance: settings.variance,
                 glossy: senders,
+                anisotropic: stretching,
             }),
         });
         let shade = ShadePlan {
             bounce: lit,
             glossy_receivers: receivers,
             glossy_senders: senders,
+            anisotropic_receivers: stretched,
+            anisotropic_senders: stretching,
             emission: settings.emission,
             diffuse: settings.diffuse,
             glossy: settings.glossy,
@@ -227,6 +265,7 @@ impl Plan {
         );
         let gbuffer = GBufferPlan {
             glossy: receivers,
+            anisotropic: stretched,
             textures,
             primary: settings.primary,
         };

@@ -71,6 +71,9 @@ pub fn host_plan(settings: &Settings, lights: usize, glossy: bool) -> Result<Pla
         glossy_senders: glossy,
         reflecting_senders: true,
         glossy_receivers: glossy,
+        // Hosts' textures have one roughness.
+        anisotropic_senders: false,
+        anisotropic_receivers: false,
         textures: true,
         bounds: (Vec3::ZERO, Vec3::ZERO),
     };

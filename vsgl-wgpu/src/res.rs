@@ -13,10 +13,15 @@ use vsgl_core::data::Columns;
 ///
 /// Others have a buffer each.
 const GROUPS: &[(&str, &[&str])] = &[
-    ("gbuffer", &["position", "normal", "diffuse", "specular"]),
+    (
+        "gbuffer",
+        &["position", "normal", "diffuse", "specular", "tangent"],
+    ),
     (
         "rsm",
-        &["position", "normal", "diffuse", "specular", "grazing"],
+        &[
+            "position", "normal", "diffuse", "specular", "grazing", "tangent",
+        ],
     ),
     ("vsgls", &["diffuse", "specular", "target"]),
     (

@@ -7,6 +7,8 @@ use vsgl_core::geom::{Ray, cross};
 use vsgl_core::glam::Vec3;
 use vsgl_core::math::vec;
 use vsgl_core::phase::shade::{self, Colors, Incoming, PointSender, Receiver};
+use vsgl_core::sg::anisotropic::{Frame, tangent_of};
+use vsgl_core::sg::filtering::FilteredView;
 use vsgl_core::sg::glossy::GlossyView;
 use vsgl_core::sg::lobe;
 use vsgl_core::sg::vmf::{self, MeanLength};
@@ -129,7 +131,19 @@ fn diffuse(a: &Arguments<'_>) -> Incoming {
 }
 
 fn specular(a: &Arguments<'_>) -> Incoming {
-    let light = SpecularVsgl {
+    let light = specular_light(a, 0.0, 0.0);
+    shade::incoming_specular(&light, &shade::sender_view(&light), a.v(10), a.v(11))
+}
+
+/// The same from a surface with two roughnesses.
+fn anisotropic(a: &Arguments<'_>) -> Incoming {
+    let light = specular_light(a, a.f(16), a.f(17));
+    let sender = shade::anisotropic_sender_view(&light);
+    shade::incoming_specular(&light, &sender, a.v(10), a.v(11))
+}
+
+fn specular_light(a: &Arguments<'_>, across: f32, turn: f32) -> SpecularVsgl {
+    SpecularVsgl {
         position: a.v(0).to_array(),
         variance: a.f(1),
         axis: a.v(2).to_array(),
@@ -143,9 +157,9 @@ fn specular(a: &Arguments<'_>) -> Incoming {
         complement_mirror: a.f(13),
         sharpness_lobe: a.f(14),
         alpha: a.f(15),
-        padding: [0.0; 2],
-    };
-    shade::incoming_specular(&light, &shade::sender_view(&light), a.v(10), a.v(11))
+        across,
+        turn,
+    }
 }
 
 /// Density of the sender's reflection towards the receiver, before the share above its horizon.
@@ -159,8 +173,29 @@ fn unshared(a: &Arguments<'_>) -> f32 {
     GlossyView::new(a.v(5), a.v(2), a.f(15)).density(outgoing, lobe)
 }
 
+/// As [`unshared`], before the core: by the light itself, at the sharpest.
+fn unshared_anisotropic(a: &Arguments<'_>) -> f32 {
+    let outgoing = vec::normalize(a.v(10) - (a.v(0) + a.v(2) * a.f(4)));
+    let mirrored = MeanLength {
+        length: 1.0 - a.f(13),
+        complement: a.f(13),
+    };
+    let lobe = vmf::sharpness(mirrored.convolve(vmf::mean(diffuse(a).sharpness)));
+    let frame = Frame::new(a.v(2), tangent_of(a.v(2), a.f(17)));
+    FilteredView::reflection(frame.local(a.v(5)), a.f(15), a.f(16))
+        .reflected_density(frame.local(outgoing), lobe)
+}
+
 fn point(a: &Arguments<'_>) -> Incoming {
-    let light = PointSender {
+    shade::incoming_point(&point_light(a, 0.0, 0.0), a.v(10))
+}
+
+fn anisotropic_point(a: &Arguments<'_>) -> Incoming {
+    shade::incoming_anisotropic_point(&point_light(a, a.f(11), a.f(12)), a.v(10))
+}
+
+fn point_light(a: &Arguments<'_>, across: f32, turn: f32) -> PointSender {
+    PointSender {
         position: a.v(0),
         variance: a.f(1),
         normal: a.v(2),
@@ -171,8 +206,9 @@ fn point(a: &Arguments<'_>) -> Incoming {
         f0: a.v(7).abs(),
         f90: a.v(8).abs(),
         alpha: a.f(9),
-    };
-    shade::incoming_point(&light, a.v(10))
+        across,
+        turn,
+    }
 }
 
 fn arriving() -> Vec<Entry> {
@@ -181,10 +217,12 @@ fn arriving() -> Vec<Entry> {
     let color = Vector(1e-3, 1.0);
     let complement = Positive(1e-9, 1.0);
     let variance = Positive(1e-8, 1e2);
-    let specular_call = format!(
-        "shade_specular(SpecularVsgl(x0, x1, x2, x3, x12, x13, x5, x14, x8, x15, x8 * x9, x4, {COVARIANCE}, \
-         array(0.0, 0.0)), x10, x11)"
-    );
+    let light = |two: &str| {
+        format!(
+            "SpecularVsgl(x0, x1, x2, x3, x12, x13, x5, x14, x8, x15, x8 * x9, x4, {COVARIANCE}, {two})"
+        )
+    };
+    let turn = Even(-1.0, 1.0);
     vec![
         entry(FILE, "shade_incoming_diffuse", &sender_kinds(&[place, Unit]), diffuse)
             .by(&format!(
@@ -201,7 +239,7 @@ fn arriving() -> Vec<Entry> {
             &sender_kinds(&[place, Unit, Unit, complement, Sharpness, Alpha]),
             specular,
         )
-        .by(&specular_call)
+        .by(&format!("shade_specular({}, x10, x11)", light("0.0, 0.0")))
         .with(
             "fn shade_specular(light: SpecularVsgl, receiver: vec3<f32>, normal: vec3<f32>) -> Incoming {\n    return \
              shade_incoming_specular(light, shade_sender_view(light), receiver, normal);\n}",
@@ -209,6 +247,22 @@ fn arriving() -> Vec<Entry> {
         .scales(|a, part| match part {
             2 => flattened(a, &specular(a)),
             3 => arrives(a) * unshared(a),
+            _ => 0.0,
+        }),
+        entry(
+            FILE,
+            "shade_incoming_anisotropic",
+            &sender_kinds(&[place, Unit, Unit, complement, Sharpness, Alpha, Alpha, turn]),
+            anisotropic,
+        )
+        .by(&format!("shade_anisotropic({}, x10, x11)", light("x16, x17")))
+        .with(
+            "fn shade_anisotropic(light: SpecularVsgl, receiver: vec3<f32>, normal: vec3<f32>) -> Incoming {\n    return \
+             shade_incoming_anisotropic(light, shade_anisotropic_sender_view(light), receiver, normal);\n}",
+        )
+        .scales(|a, part| match part {
+            2 => flattened(a, &anisotropic(a)),
+            3 => arrives(a) * unshared_anisotropic(a),
             _ => 0.0,
         }),
         entry(FILE, "shade_incoming_sg", &[place, variance, Unit, Sharpness, color, place], |a| {
@@ -229,13 +283,24 @@ fn arriving() -> Vec<Entry> {
             &[place, variance, Unit, Unit, color, share, share, color, color, Alpha, place],
             point,
         )
-        .by("shade_incoming_point(PointSender(x0, x1, x2, x3, abs(x4), x5, x6, abs(x7), abs(x8), x9), x10)"),
+        .by("shade_incoming_point(PointSender(x0, x1, x2, x3, abs(x4), x5, x6, abs(x7), abs(x8), x9, 0.0, 0.0), x10)"),
+        entry(
+            FILE,
+            "shade_incoming_anisotropic_point",
+            &[place, variance, Unit, Unit, color, share, share, color, color, Alpha, place, Alpha, turn],
+            anisotropic_point,
+        )
+        .by(
+            "shade_incoming_anisotropic_point(PointSender(x0, x1, x2, x3, abs(x4), x5, x6, abs(x7), abs(x8), x9, x11, x12), x10)",
+        ),
     ]
 }
 
 fn reflected() -> Vec<Entry> {
     let share = Even(0.0, 1.0);
-    let kinds = [Unit, Sharpness, Sharpness, Unit, Unit, share, share, Alpha];
+    let kinds = [
+        Unit, Sharpness, Sharpness, Unit, Unit, share, share, Alpha, Unit, Alpha,
+    ];
     let incoming = |a: &Arguments<'_>| Incoming {
         axis: a.v(0),
         sharpness: a.f(1),
@@ -249,8 +314,11 @@ fn reflected() -> Vec<Entry> {
         f0: a.f(5),
         f90: a.f(6),
         alpha: a.f(7),
+        tangent: a.v(8),
+        across: a.f(9),
     };
-    const OWN: &str = "Incoming(x0, x1, x2, vec3(1.0)), Receiver(vec3(0.0), x3, x4, x5, x6, x7)";
+    const OWN: &str =
+        "Incoming(x0, x1, x2, vec3(1.0)), Receiver(vec3(0.0), x3, x4, x5, x6, x7, x8, x9)";
     const VIEW: &str = "Incoming(x0, x1, x2, vec3(1.0)), glossy_view_new(x4, x3, x7)";
     let view = |a: &Arguments<'_>| GlossyView::new(a.v(4), a.v(3), a.f(7));
     macro_rules! of {
@@ -267,6 +335,8 @@ fn reflected() -> Vec<Entry> {
         lambert_constant,
         glossy_asg_2013,
         glossy_point,
+        anisotropic_asg_2013,
+        anisotropic_point,
         fresnel_weight
     );
     all.push(
@@ -282,6 +352,28 @@ fn reflected() -> Vec<Entry> {
         })
         .by(&format!("shade_glossy_2024({VIEW})"))
         .scale(move |a| view(a).density_2024(a.v(0), a.f(1))),
+    );
+    const TWO: &str = "Incoming(x0, x1, x2, vec3(1.0)), \
+         shade_anisotropic_view(Receiver(vec3(0.0), x3, x4, x5, x6, x7, x8, x9))";
+    let two = move |a: &Arguments<'_>| shade::anisotropic_view(&receiver(a));
+    let density = |a: &Arguments<'_>| {
+        let frame = Frame::new(a.v(3), a.v(8));
+        FilteredView::reflection(frame.local(a.v(4)), a.f(7), a.f(9))
+            .reflected_density(frame.local(a.v(0)), a.f(1))
+    };
+    all.push(
+        entry(FILE, "shade_anisotropic_masked", &kinds, move |a| {
+            shade::anisotropic_masked(&incoming(a), &two(a))
+        })
+        .by(&format!("shade_anisotropic_masked({TWO})"))
+        .scale(density),
+    );
+    all.push(
+        entry(FILE, "shade_anisotropic_2024", &kinds, move |a| {
+            shade::anisotropic_2024(&incoming(a), &two(a))
+        })
+        .by(&format!("shade_anisotropic_2024({TWO})"))
+        .scale(density),
     );
     let color = Vector(1e-3, 1e3);
     let colors = |a: &Arguments<'_>| Colors {
@@ -308,7 +400,7 @@ fn reflected() -> Vec<Entry> {
         .by("colors_glossy(Colors(x0, x1, x2), x3, x4)"),
     );
     let size = |e: Entry| match e.name {
-        "shade_glossy_asg_2013" => e.floor(1e-20),
+        "shade_glossy_asg_2013" | "shade_anisotropic_asg_2013" => e.floor(1e-20),
         name if name.starts_with("shade_lambert") => e.floor(1.0),
         _ => e,
     };

@@ -26,5 +26,7 @@ columns! {
         specular: [f32; 4],
         /// Specular reflectance at grazing incidence (`F90`). Empty where nothing is glossy.
         grazing: f32,
+        /// xyz: unit tangent that `alpha` belongs to; w: `alpha` across it. Empty where no surface has two roughnesses.
+        tangent: [f32; 4],
     }
 }

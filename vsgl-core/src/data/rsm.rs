@@ -30,6 +30,9 @@ columns! {
         /// rgb: arriving flux times `F90` \[W\]; w: luminance of the flux that the specular part reflects \[W\].
         /// Empty without glossy senders.
         grazing: [f32; 4],
+        /// xyz: unit tangent that `alpha` belongs to; w: `alpha` across it. Empty where no surface that light reaches has two
+        /// roughnesses.
+        tangent: [f32; 4],
     }
 }
 

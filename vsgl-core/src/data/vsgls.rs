@@ -83,7 +83,7 @@ pub struct SpecularVsgl {
     pub sharpness_lobe: f32,
     /// Arriving flux times `F0` \[W\]; with emission `sg` the radiant intensity on the axis of the lobe \[W/sr\].
     pub f0: [f32; 3],
-    /// GGX `alpha`: root of the mean square.
+    /// GGX `alpha`: root of the mean square. Along the tangent where surfaces have two roughnesses.
     pub alpha: f32,
     /// Arriving flux times `F90` \[W\].
     pub f90: [f32; 3],
@@ -91,8 +91,10 @@ pub struct SpecularVsgl {
     pub bulge: f32,
     /// Covariance of positions, xx yy zz xy xz yz \[m²\].
     pub covariance: [f32; 6],
-    /// Zero; they keep the record a multiple of 16 bytes.
-    pub padding: [f32; 2],
+    /// GGX roughness across the tangent. Zero where the plan has no anisotropic senders; likewise `turn`.
+    pub across: f32,
+    /// Direction of the tangent about `axis`, see [`turn_of`](crate::sg::anisotropic::turn_of).
+    pub turn: f32,
 }
 
 /// A real point of a cluster's surface, drawn by weight: the mean of a curved cluster lies inside the object.

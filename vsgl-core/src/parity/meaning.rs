@@ -66,6 +66,7 @@ const TABLE: &[Row] = {
         ("gbuffer", "diffuse", Picture, &[("albedo", 3, Numbers), ("f0", 1, Numbers)]),
         ("gbuffer", "specular", Picture, &[("f0", 3, Numbers), ("alpha", 1, Magnitudes)]),
         ("gbuffer", "grazing", Picture, &[("", 1, Numbers)]),
+        ("gbuffer", "tangent", Picture, &[("tangent", 3, Vector), ("alpha", 1, Magnitudes)]),
         ("radiance", "direct", Picture, &[("", 3, Numbers)]),
         ("radiance", "indirect_diffuse", Picture, &[("", 3, Numbers)]),
         ("radiance", "indirect_glossy", Picture, &[("", 3, Numbers)]),
@@ -86,6 +87,7 @@ const TABLE: &[Row] = {
         ("rsm", "diffuse", Texels, &[("flux", 3, Numbers), ("f0", 1, Numbers)]),
         ("rsm", "specular", Texels, &[("flux", 3, Numbers), ("alpha", 1, Magnitudes)]),
         ("rsm", "grazing", Texels, &[("flux", 3, Numbers), ("luminance", 1, Numbers)]),
+        ("rsm", "tangent", Texels, &[("tangent", 3, Vector), ("alpha", 1, Magnitudes)]),
         ("pdf", "weight", Pyramid, &[("", 1, Numbers)]),
         ("pdf", "share", Maps, &[("", 1, Decision)]),
         ("vsgls", "diffuse", Lights, &[
@@ -97,7 +99,7 @@ const TABLE: &[Row] = {
             ("position", 3, Points), ("variance", 1, Magnitudes), ("axis", 3, Vector), ("complement", 1, Magnitudes),
             ("mirror", 3, Vector), ("complement_mirror", 1, Magnitudes), ("light", 3, Vector),
             ("sharpness_lobe", 1, Magnitudes), ("f0", 3, Numbers), ("alpha", 1, Magnitudes), ("f90", 3, Numbers),
-            ("bulge", 1, Points), ("covariance", 6, Vector), ("padding", 2, Numbers),
+            ("bulge", 1, Points), ("covariance", 6, Vector), ("across", 1, Magnitudes), ("turn", 1, Numbers),
         ]),
         ("vsgls", "target", Lights, &[
             ("position", 3, Points), ("padding", 1, Numbers), ("normal", 3, Vector), ("padding_normal", 1, Numbers),

@@ -11,6 +11,7 @@ use crate::math::moments::{Moments, Scatter};
 use crate::math::vec::{luminance, normalize, reflect};
 use crate::plan::ClusterPlan;
 use crate::settings::{Emission, SharpnessFit, Variance};
+use crate::sg::anisotropic::turn_of;
 use crate::sg::{cosine, lobe, vmf};
 use glam::Vec3;
 
@@ -131,7 +132,13 @@ impl Sum {
             ..Self::default()
         };
         if plan.glossy {
-            let [r, g, b, alpha] = rsm.specular[index];
+            let [r, g, b, along] = rsm.specular[index];
+            // Of two roughnesses their geometric mean.
+            let alpha = if plan.anisotropic {
+                (along * rsm.tangent[index][3]).sqrt()
+            } else {
+                along
+            };
             let [r90, g90, b90, _] = rsm.grazing[index];
             let light = normalize(Vec3::from_array(rsm.map_of(index).position) - position);
             let mirror = normalize(reflect(light, normal));
@@ -320,7 +327,25 @@ fn specular_cosine(sum: &Sum, map: &MapRecord, plan: &ClusterPlan) -> SpecularVs
         f90: sum.f90.to_array(),
         bulge: bulge_of(part, mean.length, variance),
         covariance,
-        padding: [0.0; 2],
+        across: 0.0,
+        turn: 0.0,
+    }
+}
+
+/// Gives a specular light the tangent of the texel that stands for its cluster, and the ratio of its roughnesses; their
+/// geometric mean stays the cluster's.
+///
+/// One texel, not a mean: so lights of isotropic scenes are made from the same sums. In clusters whose tangents differ the
+/// light is stretched more than it should be.
+pub fn stretched(light: SpecularVsgl, rsm: &Rsm, texel: u32) -> SpecularVsgl {
+    let [x, y, z, across] = rsm.tangent[texel as usize];
+    let ratio = rsm.specular[texel as usize][3] / across.max(f32::MIN_POSITIVE);
+    let root = ratio.clamp(1e-6, 1e6).sqrt();
+    SpecularVsgl {
+        alpha: (light.alpha * root).min(1.0),
+        across: (light.alpha / root).min(1.0),
+        turn: turn_of(Vec3::from_array(light.axis), Vec3::new(x, y, z)),
+        ..light
     }
 }
 

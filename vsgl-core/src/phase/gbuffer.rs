@@ -73,6 +73,7 @@ impl GBuffer {
             } else {
                 Vec::new()
             },
+            tangent: Vec::new(),
         }
     }
 }

@@ -137,6 +137,7 @@ impl Rsm {
             diffuse: column(|t| t.diffuse),
             specular: specular(|t| t.specular),
             grazing: specular(|t| t.grazing),
+            tangent: Vec::new(),
         }
     }
 

@@ -8,6 +8,7 @@ use crate::brdf::ggx;
 use crate::data::{DiffuseVsgl, GBuffer, Rsm, SpecularVsgl};
 use crate::math::elementary::{exp, expm1_over_x};
 use crate::math::vec::normalize;
+use crate::sg::anisotropic::{self, AnisotropicView, Frame, glossy_asg, tangent_of};
 use crate::sg::glossy::GlossyView;
 use crate::sg::lobe::SHARPNESS_MAX;
 use crate::sg::{cosine, extent, lobe, vmf, warp};
@@ -43,8 +44,12 @@ pub struct Receiver {
     pub f0: f32,
     /// Dielectric reflectance at grazing incidence, of the Lambert part.
     pub f90: f32,
-    /// GGX roughness.
+    /// GGX roughness; along the tangent where there are two.
     pub alpha: f32,
+    /// Unit direction in the surface that `alpha` belongs to. Read only by the anisotropic forms.
+    pub tangent: Vec3,
+    /// GGX roughness across the tangent.
+    pub across: f32,
 }
 
 impl Receiver {
@@ -52,6 +57,7 @@ impl Receiver {
     pub fn of(gbuffer: &GBuffer, sample: usize, eye: Vec3) -> Self {
         let [nx, ny, nz, f90] = gbuffer.normal[sample];
         let position = xyz(gbuffer.position[sample]);
+        let tangent = gbuffer.tangent.get(sample).copied().unwrap_or_default();
         Self {
             position,
             normal: Vec3::new(nx, ny, nz),
@@ -59,7 +65,35 @@ impl Receiver {
             f0: gbuffer.diffuse[sample][3],
             f90,
             alpha: gbuffer.specular.get(sample).map_or(1.0, |s| s[3]),
+            tangent: xyz(tangent),
+            across: tangent[3],
         }
+    }
+
+    /// The frame of the anisotropic forms.
+    #[inline(always)]
+    fn frame(&self) -> Frame {
+        Frame::new(self.normal, self.tangent)
+    }
+}
+
+/// A surface that reflects by lobes: what [`incoming_specular`] asks of a sender.
+pub trait Gloss {
+    /// Reflected radiance of a light of strength 1 and Fresnel factor 1 \[1/sr\].
+    fn masked(&self, axis: Vec3, sharpness: f32, horizon_sharpness: f32) -> f32;
+}
+
+impl Gloss for GlossyView {
+    #[inline(always)]
+    fn masked(&self, axis: Vec3, sharpness: f32, horizon_sharpness: f32) -> f32 {
+        self.masked(axis, sharpness, horizon_sharpness)
+    }
+}
+
+impl Gloss for AnisotropicView {
+    #[inline(always)]
+    fn masked(&self, axis: Vec3, sharpness: f32, horizon_sharpness: f32) -> f32 {
+        self.masked(axis, sharpness, horizon_sharpness)
     }
 }
 
@@ -183,11 +217,11 @@ pub fn incoming_diffuse(light: &DiffuseVsgl, receiver: Vec3, normal: Vec3) -> In
 /// What the specular part of a cluster sends: GGX under the lobe of directions that the light comes from, blurred by
 /// the cluster's extent. The sender is shaded like a receiver whose eye is the light.
 ///
-/// Ours, see `docs/derivations.md`. `sender` is [`sender_view`] of the light.
+/// Ours, see `docs/derivations.md`. `sender` is [`sender_view`] or [`anisotropic_sender_view`] of the light.
 #[inline(always)]
-pub fn incoming_specular(
+pub fn incoming_specular<S: Gloss>(
     light: &SpecularVsgl,
-    sender: &GlossyView,
+    sender: &S,
     receiver: Vec3,
     normal: Vec3,
 ) -> Incoming {
@@ -228,6 +262,15 @@ pub fn sender_view(light: &SpecularVsgl) -> GlossyView {
         Vec3::from_array(light.axis),
         light.alpha,
     )
+}
+
+/// The sender of [`incoming_specular`] where surfaces have two roughnesses, once a light.
+#[inline(always)]
+pub fn anisotropic_sender_view(light: &SpecularVsgl) -> AnisotropicView {
+    let axis = Vec3::from_array(light.axis);
+    let tangent = tangent_of(axis, light.turn);
+    let view = Vec3::from_array(light.light);
+    AnisotropicView::new(view, axis, tangent, light.alpha, light.across)
 }
 
 /// What one spherical Gaussian of radiant intensity sends.
@@ -281,8 +324,12 @@ pub struct PointSender {
     pub f0: Vec3,
     /// Arriving flux times `F90` \[W\].
     pub f90: Vec3,
-    /// GGX roughness.
+    /// GGX roughness; along the tangent where there are two.
     pub alpha: f32,
+    /// GGX roughness across the tangent; read only by [`incoming_anisotropic_point`].
+    pub across: f32,
+    /// Direction of the tangent about the normal, see [`anisotropic::turn_of`].
+    pub turn: f32,
 }
 
 impl PointSender {
@@ -306,10 +353,13 @@ impl PointSender {
         };
         Some(if glossy {
             let specular = rsm.specular[texel];
+            let tangent = rsm.tangent.get(texel).copied().unwrap_or_default();
             Self {
                 f0: xyz(specular),
                 f90: xyz(rsm.grazing[texel]),
                 alpha: specular[3],
+                across: tangent[3],
+                turn: anisotropic::turn_of(lambert.normal, xyz(tangent)),
                 ..lambert
             }
         } else {
@@ -326,11 +376,28 @@ impl PointSender {
 pub fn incoming_point(light: &PointSender, receiver: Vec3) -> Incoming {
     let path = path(light.position, light.variance, receiver);
     let outgoing = -path.direction;
+    let specular = ggx::reflectance(light.light, outgoing, light.normal, light.alpha);
+    sent_by_point(light, &path, specular)
+}
+
+/// As [`incoming_point`] where surfaces have two roughnesses.
+#[inline(always)]
+pub fn incoming_anisotropic_point(light: &PointSender, receiver: Vec3) -> Incoming {
+    let path = path(light.position, light.variance, receiver);
+    let frame = Frame::new(light.normal, tangent_of(light.normal, light.turn));
+    let outgoing = -path.direction;
+    let specular =
+        anisotropic::reflectance(light.light, outgoing, &frame, light.alpha, light.across);
+    sent_by_point(light, &path, specular)
+}
+
+#[inline(always)]
+fn sent_by_point(light: &PointSender, path: &Path, specular: f32) -> Incoming {
+    let outgoing = -path.direction;
     let facing = outgoing.dot(light.normal).max(0.0) * path.spread;
     let half = half_cosine(light.light, outgoing);
     let lambert = lambert_share(light.dielectric_f0, light.dielectric_f90, half)
         * std::f32::consts::FRAC_1_PI;
-    let specular = ggx::reflectance(light.light, outgoing, light.normal, light.alpha);
     let fresnel = light.f0 + (light.f90 - light.f0) * schlick_weight(half);
     Incoming {
         axis: path.direction,
@@ -397,6 +464,41 @@ pub fn glossy_asg_2013(incoming: &Incoming, receiver: &Receiver) -> f32 {
     } = *receiver;
     let reflected = warp::glossy_asg_2016(view, normal, alpha, incoming.axis, incoming.sharpness);
     reflected / lobe::integral(incoming.sharpness)
+}
+
+/// What a receiver with two roughnesses shares between all lights.
+#[inline(always)]
+pub fn anisotropic_view(receiver: &Receiver) -> AnisotropicView {
+    let r = receiver;
+    AnisotropicView::new(r.view, r.normal, r.tangent, r.alpha, r.across)
+}
+
+/// As [`glossy_masked`] for a surface with two roughnesses.
+#[inline(always)]
+pub fn anisotropic_masked(incoming: &Incoming, surface: &AnisotropicView) -> f32 {
+    surface.masked(incoming.axis, incoming.sharpness, incoming.horizon)
+}
+
+/// As [`glossy_2024`] for a surface with two roughnesses.
+#[inline(always)]
+pub fn anisotropic_2024(incoming: &Incoming, surface: &AnisotropicView) -> f32 {
+    surface.filtered_2024(incoming.axis, incoming.sharpness)
+}
+
+/// As [`glossy_asg_2013`] for a surface with two roughnesses.
+#[inline(always)]
+pub fn anisotropic_asg_2013(incoming: &Incoming, receiver: &Receiver) -> f32 {
+    let r = receiver;
+    let (axis, sharpness) = (incoming.axis, incoming.sharpness);
+    glossy_asg(r.view, &r.frame(), r.alpha, r.across, axis, sharpness) / lobe::integral(sharpness)
+}
+
+/// As [`glossy_point`] for a surface with two roughnesses.
+#[inline(always)]
+pub fn anisotropic_point(incoming: &Incoming, receiver: &Receiver) -> f32 {
+    let r = receiver;
+    let cosine = incoming.axis.dot(r.normal).max(0.0);
+    anisotropic::reflectance(r.view, incoming.axis, &r.frame(), r.alpha, r.across) * cosine
 }
 
 /// Factor of the specular part for a light of one direction: GGX as it is.

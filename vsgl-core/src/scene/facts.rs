@@ -16,6 +16,10 @@ pub struct SceneFacts {
     pub reflecting_senders: bool,
     /// Some triangle that the camera may see is glossy.
     pub glossy_receivers: bool,
+    /// A surface that the lights may reach has two roughnesses.
+    pub anisotropic_senders: bool,
+    /// A surface that the camera may see has two roughnesses.
+    pub anisotropic_receivers: bool,
     /// Some material has a texture.
     pub textures: bool,
     /// Smallest box around all vertices \[m\], relative to the scene's origin.
@@ -31,6 +35,8 @@ impl SceneFacts {
             glossy_senders: false,
             reflecting_senders: false,
             glossy_receivers: false,
+            anisotropic_senders: false,
+            anisotropic_receivers: false,
             textures: scene
                 .materials
                 .iter()

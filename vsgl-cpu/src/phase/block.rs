@@ -42,6 +42,8 @@ pub struct Receivers {
     f0: [f32; LANES],
     f90: [f32; LANES],
     alpha: [f32; LANES],
+    tangent: Vec3Lanes,
+    across: [f32; LANES],
 }
 
 impl Receivers {
@@ -55,6 +57,8 @@ impl Receivers {
             f0: [0.0; LANES],
             f90: [0.0; LANES],
             alpha: [0.0; LANES],
+            tangent: zero,
+            across: [0.0; LANES],
         };
         for (lane, r) in receivers.iter().enumerate() {
             set(&mut all.position, lane, r.position);
@@ -63,6 +67,8 @@ impl Receivers {
             all.f0[lane] = r.f0;
             all.f90[lane] = r.f90;
             all.alpha[lane] = r.alpha;
+            set(&mut all.tangent, lane, r.tangent);
+            all.across[lane] = r.across;
         }
         all
     }
@@ -82,6 +88,8 @@ impl Receivers {
             f0: self.f0[lane],
             f90: self.f90[lane],
             alpha: self.alpha[lane],
+            tangent: get(&self.tangent, lane),
+            across: self.across[lane],
         }
     }
 }
@@ -184,6 +192,24 @@ enum Integral {
     Point,
 }
 
+/// What of the receivers' specular part there is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Specular {
+    None,
+    Isotropic,
+    Anisotropic,
+}
+
+impl Specular {
+    fn of(plan: &ShadePlan) -> Self {
+        match (plan.glossy_receivers, plan.anisotropic_receivers) {
+            (false, _) => Self::None,
+            (true, false) => Self::Isotropic,
+            (true, true) => Self::Anisotropic,
+        }
+    }
+}
+
 /// Adds what receivers reflect of what arrives.
 #[inline(always)]
 fn reflect(
@@ -191,7 +217,7 @@ fn reflect(
     arriving: &Arriving,
     receivers: &Receivers,
     integral: Integral,
-    glossy: bool,
+    kind: Specular,
 ) {
     let mut lambert = [0.0; LANES];
     match integral {
@@ -210,9 +236,26 @@ fn reflect(
             sums.diffuse[channel][lane] += arriving.strength[channel][lane] * lambert[lane];
         }
     }
-    if !glossy {
-        return;
+    let specular = match kind {
+        Specular::None => return,
+        Specular::Isotropic => isotropic(arriving, receivers, integral),
+        Specular::Anisotropic => anisotropic(arriving, receivers, integral),
+    };
+    let mut weight = [0.0; LANES];
+    lanes!(weight, i => shade::fresnel_weight(&arriving.lane(i), &receivers.lane(i)));
+    for channel in 0..3 {
+        for lane in 0..LANES {
+            let reflected = arriving.strength[channel][lane] * specular[lane];
+            let grazing = reflected * weight[lane];
+            sums.near[channel][lane] += reflected - grazing;
+            sums.grazing[channel][lane] += grazing;
+        }
     }
+}
+
+/// Factors of the specular part of surfaces with one roughness.
+#[inline(always)]
+fn isotropic(arriving: &Arriving, receivers: &Receivers, integral: Integral) -> [f32; LANES] {
     let mut specular = [0.0; LANES];
     match integral {
         Integral::Lobe(_, GlossyForm::NdfFilter) => {
@@ -228,16 +271,34 @@ fn reflect(
             lanes!(specular, i => shade::glossy_point(&arriving.lane(i), &receivers.lane(i)));
         }
     }
-    let mut weight = [0.0; LANES];
-    lanes!(weight, i => shade::fresnel_weight(&arriving.lane(i), &receivers.lane(i)));
-    for channel in 0..3 {
-        for lane in 0..LANES {
-            let reflected = arriving.strength[channel][lane] * specular[lane];
-            let grazing = reflected * weight[lane];
-            sums.near[channel][lane] += reflected - grazing;
-            sums.grazing[channel][lane] += grazing;
+    specular
+}
+
+/// Factors of the specular part of surfaces with two roughnesses.
+#[inline(always)]
+fn anisotropic(arriving: &Arriving, receivers: &Receivers, integral: Integral) -> [f32; LANES] {
+    let mut specular = [0.0; LANES];
+    match integral {
+        Integral::Lobe(_, GlossyForm::NdfFilter) => {
+            lanes!(specular, i => {
+                let surface = shade::anisotropic_view(&receivers.lane(i));
+                shade::anisotropic_masked(&arriving.lane(i), &surface)
+            });
+        }
+        Integral::Lobe(_, GlossyForm::NdfFilter2024) => {
+            lanes!(specular, i => {
+                let surface = shade::anisotropic_view(&receivers.lane(i));
+                shade::anisotropic_2024(&arriving.lane(i), &surface)
+            });
+        }
+        Integral::Lobe(_, GlossyForm::Asg2013) => {
+            lanes!(specular, i => shade::anisotropic_asg_2013(&arriving.lane(i), &receivers.lane(i)));
+        }
+        Integral::Point => {
+            lanes!(specular, i => shade::anisotropic_point(&arriving.lane(i), &receivers.lane(i)));
         }
     }
+    specular
 }
 
 /// What receivers reflect of one cluster; `specular` only with glossy senders.
@@ -266,10 +327,17 @@ pub fn vsgl(
         &arriving,
         receivers,
         integral,
-        plan.glossy_receivers,
+        Specular::of(plan),
     );
     let Some(s) = specular else { return sums };
     let arriving = match plan.emission {
+        Emission::Cosine if plan.anisotropic_senders => {
+            let sender = shade::anisotropic_sender_view(s);
+            arriving!(i => {
+                let r = receivers.lane(i);
+                shade::incoming_specular(s, &sender, r.position, r.normal)
+            })
+        }
         Emission::Cosine => {
             let sender = shade::sender_view(s);
             arriving!(i => {
@@ -287,7 +355,7 @@ pub fn vsgl(
         &arriving,
         receivers,
         integral,
-        plan.glossy_receivers,
+        Specular::of(plan),
     );
     sums
 }
@@ -296,13 +364,17 @@ pub fn vsgl(
 #[inline(always)]
 pub fn vpl(light: &PointSender, receivers: &Receivers, plan: &ShadePlan) -> Sums {
     let mut sums = Sums::default();
-    let arriving = arriving!(i => shade::incoming_point(light, receivers.lane(i).position));
+    let arriving = if plan.anisotropic_senders {
+        arriving!(i => shade::incoming_anisotropic_point(light, receivers.lane(i).position))
+    } else {
+        arriving!(i => shade::incoming_point(light, receivers.lane(i).position))
+    };
     reflect(
         &mut sums,
         &arriving,
         receivers,
         Integral::Point,
-        plan.glossy_receivers,
+        Specular::of(plan),
     );
     sums
 }

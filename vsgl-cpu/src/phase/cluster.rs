@@ -3,7 +3,7 @@
 use super::{filtered, partition};
 use rayon::prelude::*;
 use vsgl_core::data::{MapRecord, Pdf, Rsm, SceneData, Vsgls};
-use vsgl_core::phase::cluster::{Sum, lights, target};
+use vsgl_core::phase::cluster::{Sum, lights, stretched, target};
 use vsgl_core::plan::ClusterPlan;
 use vsgl_core::settings::Clustering;
 
@@ -38,7 +38,14 @@ fn gather(scene: &SceneData, rsm: &Rsm, clusters: &[Cluster], plan: &ClusterPlan
     let map = |c: &Cluster| -> &MapRecord { rsm.map_of(c.texel as usize) };
     let made: Vec<_> = clusters
         .par_iter()
-        .map(|c| lights(&c.sum, map(c), plan))
+        .map(|c| {
+            let (diffuse, specular) = lights(&c.sum, map(c), plan);
+            if plan.anisotropic {
+                (diffuse, stretched(specular, rsm, c.texel))
+            } else {
+                (diffuse, specular)
+            }
+        })
         .collect();
     let targets = clusters
         .iter()

@@ -19,6 +19,6 @@ fn sender_at(j: u32) -> Sender {
     let e = sender[at + 4u];
     let f = sender[at + 5u];
     let g = sender[at + 6u];
-    let point = PointSender(a.xyz, a.w, b.xyz, c.xyz, d.xyz, c.w, d.w, e.xyz, f.xyz, b.w);
+    let point = PointSender(a.xyz, a.w, b.xyz, c.xyz, d.xyz, c.w, d.w, e.xyz, f.xyz, b.w, e.w, f.w);
     return Sender(point, g.xyz, g.w > 0.0);
 }

@@ -30,7 +30,8 @@ struct SpecularVsgl {
     f90: vec3<f32>,
     bulge: f32,
     covariance: array<f32, 6>,
-    padding: array<f32, 2>,
+    across: f32,
+    turn: f32,
 }
 
 struct Target {

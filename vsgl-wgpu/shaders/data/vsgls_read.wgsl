@@ -25,7 +25,7 @@ fn specular_vsgl_at(j: u32, capacity: u32) -> SpecularVsgl {
     let h = lights[at + 7u];
     let covariance = array(g.x, g.y, g.z, g.w, h.x, h.y);
     return SpecularVsgl(
-        a.xyz, a.w, b.xyz, b.w, c.xyz, c.w, d.xyz, d.w, e.xyz, e.w, f.xyz, f.w, covariance, array(0.0, 0.0),
+        a.xyz, a.w, b.xyz, b.w, c.xyz, c.w, d.xyz, d.w, e.xyz, e.w, f.xyz, f.w, covariance, h.z, h.w,
     );
 }
 

@@ -22,7 +22,7 @@ fn specular_vsgl_write(j: u32, capacity: u32, light: SpecularVsgl) {
     lights[at + 4u] = vec4(light.f0, light.alpha);
     lights[at + 5u] = vec4(light.f90, light.bulge);
     lights[at + 6u] = vec4(c[0], c[1], c[2], c[3]);
-    lights[at + 7u] = vec4(c[4], c[5], 0.0, 0.0);
+    lights[at + 7u] = vec4(c[4], c[5], light.across, light.turn);
 }
 
 // `specular_stride` is zero without specular lights.

@@ -3,6 +3,7 @@
 // `vsgl-cpu/src/phase/partition.rs`, and of `gather` in `cluster.rs` there.
 
 override GLOSSY: bool = true;
+override ANISOTROPIC: bool = false;
 // Published forms instead of ours.
 override SG: bool = false;
 override TOKSVIG: bool = false;
@@ -173,7 +174,11 @@ fn make_lights(
         return;
     }
     let index = drawn[j];
-    let made = cluster_lights(sum[j], map[index / params.map_texels]);
+    var made = cluster_lights(sum[j], map[index / params.map_texels]);
+    if ANISOTROPIC {
+        let along = texel[3u * params.texels + index].w;
+        made.specular = cluster_stretched(made.specular, along, texel[5u * params.texels + index]);
+    }
     diffuse_vsgl_write(j, made.diffuse);
     if GLOSSY {
         specular_vsgl_write(j, params.capacity, made.specular);

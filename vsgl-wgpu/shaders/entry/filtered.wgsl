@@ -3,6 +3,7 @@
 // `vsgl-cpu/src/phase/filtered.rs`.
 
 override GLOSSY: bool = true;
+override ANISOTROPIC: bool = false;
 override SG: bool = false;
 override TOKSVIG: bool = false;
 override TRACE: bool = false;

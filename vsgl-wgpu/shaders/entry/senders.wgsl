@@ -1,8 +1,9 @@
-//! needs: data/index, data/lights, data/scene, math/vec, phase/facing
+//! needs: data/index, data/lights, data/scene, math/vec, phase/facing, sg/anisotropic
 // The texels of reflective shadow maps as point lights. Twin of `PointSender::of` in `vsgl-core/src/phase/shade.rs` and of
 // `target` in `phase/cluster.rs`.
 
 override GLOSSY_SENDERS: bool = true;
+override ANISOTROPIC_SENDERS: bool = false;
 
 struct Params {
     // Texels of a map, and of all maps.
@@ -36,6 +37,13 @@ fn senders(
         specular = texel[3u * count + i];
         grazing = texel[4u * count + i];
     }
+    var across = 0.0;
+    var turn = 0.0;
+    if ANISOTROPIC_SENDERS {
+        let tangent = texel[5u * count + i];
+        across = tangent.w;
+        turn = anisotropic_turn_of(normal.xyz, tangent.xyz);
+    }
     let apart = map[i / params.map_texels].position - position.xyz;
     var facing = vec3(0.0, 0.0, 1.0);
     if triangle[i] != NO_TRIANGLE {
@@ -47,7 +55,7 @@ fn senders(
     sender_out[at + 1u] = vec4(normal.xyz, specular.w);
     sender_out[at + 2u] = vec4(vec_normalize(apart), diffuse.w);
     sender_out[at + 3u] = vec4(diffuse.xyz, normal.w);
-    sender_out[at + 4u] = vec4(specular.xyz, 0.0);
-    sender_out[at + 5u] = vec4(grazing.xyz, 0.0);
+    sender_out[at + 4u] = vec4(specular.xyz, across);
+    sender_out[at + 5u] = vec4(grazing.xyz, turn);
     sender_out[at + 6u] = vec4(facing, select(0.0, 1.0, weight > 0.0));
 }

@@ -4,6 +4,8 @@
 
 override GLOSSY_RECEIVERS: bool = true;
 override GLOSSY_SENDERS: bool = true;
+override ANISOTROPIC_RECEIVERS: bool = false;
+override ANISOTROPIC_SENDERS: bool = false;
 override RAYS: bool = true;
 override EMISSION: u32 = 0u;
 override DIFFUSE: u32 = 0u;
@@ -32,7 +34,7 @@ struct Count {
 @group(0) @binding(1) var<storage, read> node: array<BvhNode>;
 @group(0) @binding(2) var<storage, read> corner: array<array<f32, 9>>;
 @group(0) @binding(3) var<storage, read> triangle: array<u32>;
-// Columns position, normal, diffuse, specular of the G-buffer.
+// Columns position, normal, diffuse, specular, tangent of the G-buffer.
 @group(0) @binding(4) var<storage, read> receiver: array<vec4<f32>>;
 @group(0) @binding(5) var<storage, read> grazing: array<f32>;
 @group(0) @binding(6) var<storage, read> direct_light: array<DirectLight>;
@@ -45,12 +47,19 @@ struct Count {
 // Sums of the samples of this band over the lights so far.
 @group(0) @binding(11) var<storage, read_write> waiting: array<vec4<f32>>;
 
+// Place of the tangents among the columns.
+const TANGENT: u32 = 4u;
+
 fn receiver_at(i: u32) -> Receiver {
     let normal = receiver[params.count + i];
     let position = receiver[i].xyz;
     var alpha = 1.0;
     if GLOSSY_RECEIVERS {
         alpha = receiver[3u * params.count + i].w;
+    }
+    var tangent = vec4(0.0);
+    if ANISOTROPIC_RECEIVERS {
+        tangent = receiver[TANGENT * params.count + i];
     }
     return Receiver(
         position,
@@ -59,6 +68,8 @@ fn receiver_at(i: u32) -> Receiver {
         receiver[2u * params.count + i].w,
         normal.w,
         alpha,
+        tangent.xyz,
+        tangent.w,
     );
 }
 
@@ -156,15 +167,12 @@ fn vsgls(
         if RAYS {
             origin = origin_at(i, seen.position);
         }
-        var surface: GlossyView;
-        if GLOSSY_RECEIVERS {
-            surface = glossy_view_new(seen.view, seen.normal, seen.alpha);
-        }
+        let surfaces = surfaces_of(seen);
         let capacity = params.lights;
         for (var j = params.first_light; j < min(params.end_light, clusters.value); j++) {
-            var sums = reflect_diffuse(diffuse_vsgl_at(j), seen, surface);
+            var sums = reflect_diffuse(diffuse_vsgl_at(j), seen, surfaces);
             if GLOSSY_SENDERS {
-                sums = reflect_specular(sums, specular_vsgl_at(j, capacity), seen, surface);
+                sums = reflect_specular(sums, specular_vsgl_at(j, capacity), seen, surfaces);
             }
             if RAYS {
                 if !sums_lit(sums) {
@@ -202,7 +210,12 @@ fn vpls(
             if !light.lit {
                 continue;
             }
-            let incoming = shade_incoming_point(light.point, seen.position);
+            var incoming: Incoming;
+            if ANISOTROPIC_SENDERS {
+                incoming = shade_incoming_anisotropic_point(light.point, seen.position);
+            } else {
+                incoming = shade_incoming_point(light.point, seen.position);
+            }
             let sums = reflect_point(Sums(), incoming, seen);
             if RAYS {
                 if !sums_lit(sums) || !is_open(origin, light.point.position, light.facing) {

@@ -1,8 +1,8 @@
-//! needs: data/lights, data/vsgls, math/moments, math/vec, phase/facing, sg/cosine, sg/lobe, sg/vmf
+//! needs: data/lights, data/vsgls, math/moments, math/vec, phase/facing, sg/anisotropic, sg/cosine, sg/lobe, sg/vmf
 // Clusters of virtual point lights, and the lights that stand for them. Twin of `vsgl-core/src/phase/cluster.rs`.
 //
 // Reads the columns of the RSM, one after the other, from `texel`, and `map`, which the entry binds; for targets also
-// `triangle` and `corner`. The entry declares the overrides GLOSSY, SG, TOKSVIG and TRACE.
+// `triangle` and `corner`. The entry declares the overrides GLOSSY, ANISOTROPIC, SG, TOKSVIG and TRACE.
 
 struct Sum {
     diffuse: Part,
@@ -82,7 +82,10 @@ fn sum_texel(index: u32, count: u32, map_texels: u32) -> Sum {
     if GLOSSY {
         let near = texel[3u * count + index];
         let grazing = texel[4u * count + index];
-        let alpha = near.w;
+        var alpha = near.w;
+        if ANISOTROPIC {
+            alpha = sqrt(near.w * texel[5u * count + index].w);
+        }
         let specular = grazing.w;
         let light = vec_normalize(map[index / map_texels].position - position);
         let mirror = vec_normalize(vec_reflect(light, normal));
@@ -165,6 +168,16 @@ fn cluster_extent_of(part: Part, axis: vec3<f32>) -> Extent {
 fn cluster_bulge_of(part: Part, mean_length: f32, variance: f32) -> f32 {
     let size = 2.0 * sqrt(variance);
     return max(min(part.bulge / max(part.weight * mean_length, F32_MIN_POSITIVE), size), -size);
+}
+
+fn cluster_stretched(light: SpecularVsgl, along: f32, tangent: vec4<f32>) -> SpecularVsgl {
+    let ratio = along / max(tangent.w, F32_MIN_POSITIVE);
+    let root = sqrt(max(min(ratio, 1e6), 1e-6));
+    var made = light;
+    made.alpha = min(light.alpha * root, 1.0);
+    made.across = min(light.alpha / root, 1.0);
+    made.turn = anisotropic_turn_of(light.axis, tangent.xyz);
+    return made;
 }
 
 struct Lights {

@@ -26,8 +26,25 @@ fn sums_add(sum: Sums, more: Sums) -> Sums {
     return Sums(sum.diffuse + more.diffuse, sum.near + more.near, sum.grazing + more.grazing);
 }
 
-// Adds what a receiver reflects of a lobe; `surface` is only read where the plan has glossy receivers.
-fn reflect_lobe(sums: Sums, incoming: Incoming, receiver: Receiver, surface: GlossyView) -> Sums {
+// What a receiver has in common for all lights: `two` where it has two roughnesses, else `one`; neither where nothing glossy
+// is seen.
+struct Surfaces {
+    one: GlossyView,
+    two: AnisotropicView,
+}
+
+fn surfaces_of(receiver: Receiver) -> Surfaces {
+    var made: Surfaces;
+    if ANISOTROPIC_RECEIVERS {
+        made.two = shade_anisotropic_view(receiver);
+    } else if GLOSSY_RECEIVERS {
+        made.one = glossy_view_new(receiver.view, receiver.normal, receiver.alpha);
+    }
+    return made;
+}
+
+// Adds what a receiver reflects of a lobe.
+fn reflect_lobe(sums: Sums, incoming: Incoming, receiver: Receiver, surfaces: Surfaces) -> Sums {
     var lambert = 0.0;
     if DIFFUSE == DIFFUSE_V13 {
         lambert = shade_lambert_v13(incoming, receiver);
@@ -37,11 +54,19 @@ fn reflect_lobe(sums: Sums, incoming: Incoming, receiver: Receiver, surface: Glo
         lambert = shade_lambert_constant(incoming, receiver);
     }
     var specular = 0.0;
-    if GLOSSY_RECEIVERS {
+    if ANISOTROPIC_RECEIVERS {
         if GLOSSY == GLOSSY_NDF_FILTER {
-            specular = shade_glossy_masked(incoming, surface);
+            specular = shade_anisotropic_masked(incoming, surfaces.two);
         } else if GLOSSY == GLOSSY_NDF_FILTER_2024 {
-            specular = shade_glossy_2024(incoming, surface);
+            specular = shade_anisotropic_2024(incoming, surfaces.two);
+        } else {
+            specular = shade_anisotropic_asg_2013(incoming, receiver);
+        }
+    } else if GLOSSY_RECEIVERS {
+        if GLOSSY == GLOSSY_NDF_FILTER {
+            specular = shade_glossy_masked(incoming, surfaces.one);
+        } else if GLOSSY == GLOSSY_NDF_FILTER_2024 {
+            specular = shade_glossy_2024(incoming, surfaces.one);
         } else {
             specular = shade_glossy_asg_2013(incoming, receiver);
         }
@@ -52,7 +77,9 @@ fn reflect_lobe(sums: Sums, incoming: Incoming, receiver: Receiver, surface: Glo
 // Adds what a receiver reflects of light from one direction.
 fn reflect_point(sums: Sums, incoming: Incoming, receiver: Receiver) -> Sums {
     var specular = 0.0;
-    if GLOSSY_RECEIVERS {
+    if ANISOTROPIC_RECEIVERS {
+        specular = shade_anisotropic_point(incoming, receiver);
+    } else if GLOSSY_RECEIVERS {
         specular = shade_glossy_point(incoming, receiver);
     }
     return reflect_add(sums, incoming, receiver, shade_lambert_constant(incoming, receiver), specular);
@@ -71,7 +98,7 @@ fn reflect_add(sums: Sums, incoming: Incoming, receiver: Receiver, lambert: f32,
 }
 
 // What a receiver reflects of the Lambert part of a cluster.
-fn reflect_diffuse(light: DiffuseVsgl, receiver: Receiver, surface: GlossyView) -> Sums {
+fn reflect_diffuse(light: DiffuseVsgl, receiver: Receiver, surfaces: Surfaces) -> Sums {
     var incoming: Incoming;
     if EMISSION == EMISSION_COSINE {
         incoming = shade_incoming_diffuse(light, receiver.position, receiver.normal);
@@ -80,19 +107,24 @@ fn reflect_diffuse(light: DiffuseVsgl, receiver: Receiver, surface: GlossyView) 
             light.position, light.variance, light.axis, light.sharpness, light.intensity, receiver.position,
         );
     }
-    return reflect_lobe(Sums(), incoming, receiver, surface);
+    return reflect_lobe(Sums(), incoming, receiver, surfaces);
 }
 
 // The same with its specular part added.
-fn reflect_specular(sums: Sums, light: SpecularVsgl, receiver: Receiver, surface: GlossyView) -> Sums {
+fn reflect_specular(sums: Sums, light: SpecularVsgl, receiver: Receiver, surfaces: Surfaces) -> Sums {
     var incoming: Incoming;
     if EMISSION == EMISSION_COSINE {
-        let sender = shade_sender_view(light);
-        incoming = shade_incoming_specular(light, sender, receiver.position, receiver.normal);
+        if ANISOTROPIC_SENDERS {
+            let sender = shade_anisotropic_sender_view(light);
+            incoming = shade_incoming_anisotropic(light, sender, receiver.position, receiver.normal);
+        } else {
+            let sender = shade_sender_view(light);
+            incoming = shade_incoming_specular(light, sender, receiver.position, receiver.normal);
+        }
     } else {
         incoming = shade_incoming_sg(
             light.position, light.variance, light.mirror, light.sharpness_lobe, light.f0, receiver.position,
         );
     }
-    return reflect_lobe(sums, incoming, receiver, surface);
+    return reflect_lobe(sums, incoming, receiver, surfaces);
 }

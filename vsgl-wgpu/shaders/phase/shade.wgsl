@@ -1,4 +1,4 @@
-//! needs: math/elementary, math/vec, sg/cosine, sg/extent, sg/glossy, sg/lobe, sg/vmf, sg/warp, brdf/fresnel, brdf/ggx, data/vsgls
+//! needs: math/elementary, math/vec, sg/anisotropic, sg/cosine, sg/extent, sg/glossy, sg/lobe, sg/vmf, sg/warp, brdf/fresnel, brdf/ggx, data/vsgls
 // One receiver against one virtual light. Twin of `vsgl-core/src/phase/shade.rs`.
 
 struct Incoming {
@@ -15,6 +15,13 @@ struct Receiver {
     f0: f32,
     f90: f32,
     alpha: f32,
+    // Read only by the anisotropic forms.
+    tangent: vec3<f32>,
+    across: f32,
+}
+
+fn receiver_frame(own: Receiver) -> Frame {
+    return frame_new(own.normal, own.tangent);
 }
 
 struct Colors {
@@ -79,21 +86,28 @@ fn shade_incoming_diffuse(light: DiffuseVsgl, receiver: vec3<f32>, normal: vec3<
     );
 }
 
-fn shade_incoming_specular(
-    light: SpecularVsgl,
-    sender: GlossyView,
-    receiver: vec3<f32>,
-    normal: vec3<f32>,
-) -> Incoming {
+// The way of a cluster's specular light: what leaves the sender, and under which lobes.
+struct SpecularWay {
+    path: Path,
+    outgoing: vec3<f32>,
+    lobe: f32,
+    horizon: f32,
+}
+
+fn shade_specular_way(light: SpecularVsgl, receiver: vec3<f32>) -> SpecularWay {
     let path = shade_path(light.position, light.variance, receiver);
     let outgoing = shade_leaving(light.position, light.axis, light.bulge, receiver);
     let across = vmf_mean(path.sharpness);
     let along = shade_sharpness_along(path.sharpness, light.variance, light.covariance, light.axis);
     let lobe = vmf_sharpness(mean_length_convolve(shade_mean_length(light.complement_mirror), across));
     let horizon = vmf_convolve_with(shade_mean_length(light.complement), along);
-    let reflected = glossy_view_masked(sender, outgoing, lobe, horizon) * path.spread;
-    let grazing = fresnel_schlick_weight(fresnel_half_cosine(light.light, outgoing));
-    let arriving = lobe_product(-light.mirror, light.sharpness_lobe, path.direction, path.sharpness);
+    return SpecularWay(path, outgoing, lobe, horizon);
+}
+
+fn shade_sent(light: SpecularVsgl, way: SpecularWay, masked: f32, normal: vec3<f32>) -> Incoming {
+    let reflected = masked * way.path.spread;
+    let grazing = fresnel_schlick_weight(fresnel_half_cosine(light.light, way.outgoing));
+    let arriving = lobe_product(-light.mirror, light.sharpness_lobe, way.path.direction, way.path.sharpness);
     return Incoming(
         arriving.axis,
         arriving.sharpness,
@@ -102,8 +116,34 @@ fn shade_incoming_specular(
     );
 }
 
+fn shade_incoming_specular(
+    light: SpecularVsgl,
+    sender: GlossyView,
+    receiver: vec3<f32>,
+    normal: vec3<f32>,
+) -> Incoming {
+    let way = shade_specular_way(light, receiver);
+    return shade_sent(light, way, glossy_view_masked(sender, way.outgoing, way.lobe, way.horizon), normal);
+}
+
+// The same from a surface with two roughnesses.
+fn shade_incoming_anisotropic(
+    light: SpecularVsgl,
+    sender: AnisotropicView,
+    receiver: vec3<f32>,
+    normal: vec3<f32>,
+) -> Incoming {
+    let way = shade_specular_way(light, receiver);
+    return shade_sent(light, way, anisotropic_view_masked(sender, way.outgoing, way.lobe, way.horizon), normal);
+}
+
 fn shade_sender_view(light: SpecularVsgl) -> GlossyView {
     return glossy_view_new(light.light, light.axis, light.alpha);
+}
+
+fn shade_anisotropic_sender_view(light: SpecularVsgl) -> AnisotropicView {
+    let tangent = anisotropic_tangent_of(light.axis, light.turn);
+    return anisotropic_view_new(light.light, light.axis, tangent, light.alpha, light.across);
 }
 
 fn shade_incoming_sg(
@@ -132,15 +172,28 @@ struct PointSender {
     f0: vec3<f32>,
     f90: vec3<f32>,
     alpha: f32,
+    across: f32,
+    turn: f32,
 }
 
 fn shade_incoming_point(light: PointSender, receiver: vec3<f32>) -> Incoming {
     let path = shade_path(light.position, light.variance, receiver);
+    let specular = ggx_reflectance(light.light, -path.direction, light.normal, light.alpha);
+    return shade_sent_by_point(light, path, specular);
+}
+
+fn shade_incoming_anisotropic_point(light: PointSender, receiver: vec3<f32>) -> Incoming {
+    let path = shade_path(light.position, light.variance, receiver);
+    let frame = frame_new(light.normal, anisotropic_tangent_of(light.normal, light.turn));
+    let specular = anisotropic_reflectance(light.light, -path.direction, frame, light.alpha, light.across);
+    return shade_sent_by_point(light, path, specular);
+}
+
+fn shade_sent_by_point(light: PointSender, path: Path, specular: f32) -> Incoming {
     let outgoing = -path.direction;
     let facing = max(dot(outgoing, light.normal), 0.0) * path.spread;
     let half = fresnel_half_cosine(light.light, outgoing);
     let lambert = shade_lambert_share(light.dielectric_f0, light.dielectric_f90, half) * FRAC_1_PI;
-    let specular = ggx_reflectance(light.light, outgoing, light.normal, light.alpha);
     let fresnel = light.f0 + (light.f90 - light.f0) * fresnel_schlick_weight(half);
     return Incoming(
         path.direction,
@@ -191,4 +244,29 @@ fn shade_glossy_point(incoming: Incoming, receiver: Receiver) -> f32 {
 
 fn shade_fresnel_weight(incoming: Incoming, receiver: Receiver) -> f32 {
     return fresnel_schlick_weight(fresnel_half_cosine(receiver.view, incoming.axis));
+}
+
+fn shade_anisotropic_view(receiver: Receiver) -> AnisotropicView {
+    return anisotropic_view_new(receiver.view, receiver.normal, receiver.tangent, receiver.alpha, receiver.across);
+}
+
+fn shade_anisotropic_masked(incoming: Incoming, surface: AnisotropicView) -> f32 {
+    return anisotropic_view_masked(surface, incoming.axis, incoming.sharpness, incoming.horizon);
+}
+
+fn shade_anisotropic_2024(incoming: Incoming, surface: AnisotropicView) -> f32 {
+    return anisotropic_view_filtered_2024(surface, incoming.axis, incoming.sharpness);
+}
+
+fn shade_anisotropic_asg_2013(incoming: Incoming, receiver: Receiver) -> f32 {
+    let frame = receiver_frame(receiver);
+    let sharpness = incoming.sharpness;
+    return anisotropic_glossy_asg(receiver.view, frame, receiver.alpha, receiver.across, incoming.axis, sharpness)
+        / lobe_integral(sharpness);
+}
+
+fn shade_anisotropic_point(incoming: Incoming, receiver: Receiver) -> f32 {
+    let cosine = max(dot(incoming.axis, receiver.normal), 0.0);
+    let frame = receiver_frame(receiver);
+    return anisotropic_reflectance(receiver.view, incoming.axis, frame, receiver.alpha, receiver.across) * cosine;
 }

@@ -37,9 +37,10 @@ impl Params {
 }
 
 /// Constants of all kernels that make sums of texels, or lights of sums.
-pub(super) fn constants(plan: &ClusterPlan) -> [Constant; 4] {
+pub(super) fn constants(plan: &ClusterPlan) -> [Constant; 5] {
     [
         ("GLOSSY", flag(plan.glossy)),
+        ("ANISOTROPIC", flag(plan.anisotropic)),
         ("SG", flag(plan.emission == Emission::Sg)),
         ("TOKSVIG", flag(plan.sharpness == SharpnessFit::Toksvig)),
         ("TRACE", flag(plan.variance == Variance::Trace)),

@@ -53,6 +53,7 @@ pub(crate) fn record(
     let (width, height) = view.samples();
     let count = u64::from(width) * u64::from(height);
     let glossy = if plan.glossy { count } else { 0 };
+    let stretched = if plan.anisotropic { count } else { 0 };
     let made = WgpuRes::<GBuffer>::new(
         context,
         vec![width, height],
@@ -63,6 +64,7 @@ pub(crate) fn record(
             ("diffuse", 16, count),
             ("specular", 16, glossy),
             ("grazing", 4, glossy),
+            ("tangent", 16, stretched),
         ],
     )?;
     let params = Params {

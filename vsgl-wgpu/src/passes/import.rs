@@ -194,6 +194,7 @@ pub(crate) fn gbuffer(
             ("diffuse", 16, count),
             ("specular", 16, glossy),
             ("grazing", 4, glossy),
+            ("tangent", 16, 0),
         ],
     )?;
     let kind = Kind {
@@ -245,6 +246,7 @@ pub(crate) fn rsm(
             ("diffuse", 16, count),
             ("specular", 16, glossy),
             ("grazing", 16, glossy),
+            ("tangent", 16, 0),
         ],
     )?;
     for (index, from) in from.iter().enumerate() {

@@ -304,7 +304,7 @@ impl Bounce {
                 let size = u64::from(rsm.head[0]);
                 let buffer = context.buffer("the point lights", 7 * 16 * texels)?;
                 let glossy = plan.glossy_senders && rsm.len("specular") > 0;
-                let made = sender_constants(glossy);
+                let made = sender_constants(glossy, plan.anisotropic_senders);
                 let params = SenderParams {
                     map_texels: (size * size) as u32,
                     count: texels as u32,
@@ -323,12 +323,18 @@ impl Bounce {
     }
 }
 
-fn direct_constants(plan: &ShadePlan) -> [Constant; 1] {
-    [("GLOSSY_RECEIVERS", flag(plan.glossy_receivers))]
+fn direct_constants(plan: &ShadePlan) -> [Constant; 2] {
+    [
+        ("GLOSSY_RECEIVERS", flag(plan.glossy_receivers)),
+        ("ANISOTROPIC_RECEIVERS", flag(plan.anisotropic_receivers)),
+    ]
 }
 
-fn sender_constants(glossy: bool) -> [Constant; 1] {
-    [("GLOSSY_SENDERS", flag(glossy))]
+fn sender_constants(glossy: bool, anisotropic: bool) -> [Constant; 2] {
+    [
+        ("GLOSSY_SENDERS", flag(glossy)),
+        ("ANISOTROPIC_SENDERS", flag(glossy && anisotropic)),
+    ]
 }
 
 /// The pipelines that a plan needs; `clusters` where lights are clusters, not texels.
@@ -338,7 +344,7 @@ pub(crate) fn kernels(plan: &ShadePlan, clusters: bool) -> Vec<KernelId> {
     if plan.bounce && clusters {
         kernels.push(shade("vsgls", &constants(plan)));
     } else if plan.bounce {
-        let made = sender_constants(plan.glossy_senders);
+        let made = sender_constants(plan.glossy_senders, plan.anisotropic_senders);
         kernels.push(KernelId::new("entry/senders", "senders", &made));
         kernels.push(shade("vpls", &constants(plan)));
     }
@@ -346,7 +352,7 @@ pub(crate) fn kernels(plan: &ShadePlan, clusters: bool) -> Vec<KernelId> {
 }
 
 /// The constants of the kernels that shade by virtual lights; numbers as in `phase/reflect.wgsl`.
-fn constants(plan: &ShadePlan) -> [Constant; 6] {
+fn constants(plan: &ShadePlan) -> [Constant; 8] {
     let emission = match plan.emission {
         Emission::Cosine => 0.0,
         Emission::Sg => 1.0,
@@ -364,6 +370,8 @@ fn constants(plan: &ShadePlan) -> [Constant; 6] {
     [
         ("GLOSSY_RECEIVERS", flag(plan.glossy_receivers)),
         ("GLOSSY_SENDERS", flag(plan.glossy_senders)),
+        ("ANISOTROPIC_RECEIVERS", flag(plan.anisotropic_receivers)),
+        ("ANISOTROPIC_SENDERS", flag(plan.anisotropic_senders)),
         ("RAYS", flag(plan.occlusion == OcclusionMethod::Rays)),
         ("EMISSION", emission),
         ("DIFFUSE", diffuse),
