@@ -176,7 +176,8 @@ fn records_of_the_scene_and_of_lights() {
             f90,
             bulge,
             covariance,
-            padding,
+            across,
+            turn,
         }
     );
 }
