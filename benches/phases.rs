@@ -5,9 +5,10 @@ use std::hint::black_box;
 use std::sync::Arc;
 use vsgl_core::backend::{Backend, Senders, ShadeInputs};
 use vsgl_core::data::{Pdf, Rsm, SceneData};
-use vsgl_core::plan::{BouncePlan, Plan};
+use vsgl_core::glam::Vec3;
+use vsgl_core::plan::{BouncePlan, Plan, RsmPlan};
 use vsgl_core::render::{View, render};
-use vsgl_core::scene::{Scene, SceneFacts, samples};
+use vsgl_core::scene::{Light, PointLight, Scene, SceneFacts, samples};
 use vsgl_core::settings::{Clustering, OcclusionMethod, Preset, Settings};
 use vsgl_cpu::CpuBackend;
 
@@ -87,6 +88,24 @@ fn maps(c: &mut Criterion) {
         b.iter(|| {
             set.backend
                 .rsm(&set.data, black_box(&set.scene.lights), &bounce.rsm)
+                .expect("cpu")
+        });
+    });
+    // As many texels in six maps, each with its own frame.
+    group.throughput(Throughput::Elements(6 * 256 * 256));
+    let point = Light::Point(PointLight {
+        position: Vec3::new(0.2, 0.5, 0.0),
+        intensity: [5.0; 3],
+        range: f32::INFINITY,
+    });
+    let faces = RsmPlan {
+        size: 256,
+        ..bounce.rsm.clone()
+    };
+    group.bench_function("rsm 6 x 256², a point", |b| {
+        b.iter(|| {
+            set.backend
+                .rsm(&set.data, black_box(&[point]), &faces)
                 .expect("cpu")
         });
     });

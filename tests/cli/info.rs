@@ -72,6 +72,34 @@ fn the_plan_follows_the_flags() {
 }
 
 #[test]
+fn lights_of_all_kinds_are_named() {
+    let folder = Folder::new();
+    let flags = "--only-added-lights --spot 1,2,3:1,0,3:4:30 --point 1,0.5,-2:1,2,3 --sun 0,-2,0:7 --sun -1,0,0:0";
+    let text = folder.run(&format!("info sample:cornell {flags}")).ok();
+    for line in [
+        "4 lights",
+        "0 spot at 1,2,3 towards 0,-1,0, 4 W/sr",
+        "1 point at 1,0.5,-2, 1,2,3 W/sr",
+        "2 directional along 0,-1,0, 7 W/m²",
+        "3 directional along -1,0,0, 0 W/m²",
+    ] {
+        assert!(text.contains(line), "no `{line}` in\n{text}");
+    }
+    let document = folder
+        .run(&format!("info sample:cornell --json {flags}"))
+        .json();
+    let lights = document["lights"].as_array().expect("a list");
+    let kinds: Vec<_> = lights
+        .iter()
+        .map(|l| l["kind"].as_str().expect("a kind"))
+        .collect();
+    assert_eq!(kinds, ["spot", "point", "directional", "directional"]);
+    assert!(lights[1]["range"].is_null());
+    assert_eq!(lights[2]["irradiance"][1], 7.0);
+    assert_eq!(runs(&document, "smaller maps"), Some(true));
+}
+
+#[test]
 fn added_lights_and_cameras_are_where_they_were_put() {
     let folder = Folder::new();
     let flags = "--spot 1,2,3:1,0,3:4,5,6:30:20 --look-at 0,1,2:0,1,0 --fov 40";

@@ -52,6 +52,7 @@ pub(crate) fn made(corners: &[[Vec3; 3]], material: Material, light: Vec3, eye: 
             intensity: [10.0; 3],
             inner: 0.5,
             outer: 0.6,
+            range: f32::INFINITY,
         })],
         cameras: vec![("main".into(), Camera::look_at(eye, Vec3::ZERO, 1.0))],
         ..Scene::default()

@@ -1,8 +1,8 @@
 //! One thing at the edge at a time.
 
 use crate::rooms::{changed, floor, made, materials, sample, scaled, sound};
-use vsgl_core::glam::Vec3;
-use vsgl_core::scene::{Camera, Material};
+use vsgl_core::glam::{Quat, Vec3};
+use vsgl_core::scene::{Camera, DirectionalLight, Light, Material, PointLight};
 
 #[test]
 fn every_sample() {
@@ -126,6 +126,8 @@ fn narrow_and_wide_cones() {
         (0.01, 0.01),
         (0.0, 80.0),
         (80.0, 80.0),
+        (0.0, 80.1),
+        (90.0, 90.0),
         (0.0, 1e-5),
     ] {
         let shot = changed(|shot| {
@@ -135,6 +137,121 @@ fn narrow_and_wide_cones() {
             });
         });
         sound(&format!("cone {inner} {outer}"), &shot);
+    }
+}
+
+/// Cornell under other lights.
+fn under(lights: &[Light]) -> vsgl_tests::render::Shot {
+    changed(|shot| shot.lights = lights.to_vec())
+}
+
+fn point(position: Vec3, range: f32) -> Light {
+    Light::Point(PointLight {
+        position,
+        intensity: [5.0; 3],
+        range,
+    })
+}
+
+fn sun(axis: Vec3) -> Light {
+    Light::Directional(DirectionalLight {
+        axis,
+        irradiance: [5.0; 3],
+    })
+}
+
+#[test]
+fn points_in_bad_places() {
+    let (low, high) = sample("cornell").scene.bounds();
+    for (name, position) in [
+        ("in the middle", 0.25 * (low + high)),
+        ("in a corner", low),
+        ("on the floor", Vec3::new(0.1, low.y, 0.3)),
+        ("just above the floor", Vec3::new(0.1, low.y + 1e-7, 0.3)),
+        ("at the eye", sample("cornell").view.camera.eye),
+        ("far away", Vec3::new(1e6, 2e6, 3e6)),
+    ] {
+        sound(name, &under(&[point(position, f32::INFINITY)]));
+    }
+}
+
+#[test]
+fn ranges_of_all_sizes() {
+    for range in [0.0, -1.0, f32::NAN, f32::MIN_POSITIVE, 1e-9] {
+        let dark = sound(
+            &format!("range {range}"),
+            &under(&[point(Vec3::ZERO, range)]),
+        );
+        assert_eq!(dark, 0.0, "{range}");
+    }
+    let endless = sound("endless", &under(&[point(Vec3::ZERO, f32::INFINITY)]));
+    for range in [1e3, 1e20, f32::MAX] {
+        let lit = sound(
+            &format!("range {range}"),
+            &under(&[point(Vec3::ZERO, range)]),
+        );
+        assert!(
+            (lit / endless - 1.0).abs() < 1e-5,
+            "{range}: {lit} for {endless}"
+        );
+    }
+    let faded = sound("range 1.5", &under(&[point(Vec3::ZERO, 1.5)]));
+    assert!(faded > 0.0 && faded < 0.9 * endless, "{faded} of {endless}");
+    sound(
+        "a spot's range",
+        &changed(|shot| shot.spots().for_each(|s| s.range = 1.0)),
+    );
+}
+
+#[test]
+fn suns_along_axes_and_walls() {
+    for axis in [
+        Vec3::X,
+        Vec3::NEG_X,
+        Vec3::Y,
+        Vec3::NEG_Y,
+        Vec3::Z,
+        Vec3::NEG_Z,
+        Vec3::new(1e-6, -1.0, 0.0),
+        Vec3::new(0.6, -0.64, -0.48),
+    ] {
+        let lit = sound(&format!("sun along {axis}"), &under(&[sun(axis)]).open());
+        // Only from above it shines into the room.
+        assert_eq!(lit > 0.0, axis.y < -0.5, "{axis}: {lit}");
+    }
+    // Edge on, and onto a floor that is flat: the map has a side of no length.
+    for axis in [Vec3::X, Vec3::NEG_Y] {
+        let mut shot = made(
+            &floor(),
+            Material::lambert("floor", [0.5; 3]),
+            Vec3::Y,
+            Vec3::new(0.0, 1.0, 2.0),
+        );
+        shot.lights = vec![sun(axis)];
+        sound(&format!("sun along {axis} on a floor"), &shot);
+    }
+}
+
+#[test]
+fn lights_of_all_kinds_in_rooms_of_all_sizes() {
+    let slant = Vec3::new(0.3, -1.0, -0.2).normalize();
+    let all = [point(Vec3::new(0.1, 0.3, 0.2), f32::INFINITY), sun(slant)];
+    let unit = under(&all).open();
+    let usual = sound("all kinds", &unit);
+    assert!(usual > 0.0);
+    for scale in [1e-3, 1e6] {
+        let mut shot = unit.clone().placed(Quat::IDENTITY, scale, Vec3::ZERO);
+        for light in &mut shot.lights {
+            if let Light::Point(point) = light {
+                point.intensity = point.intensity.map(|i| i * scale * scale);
+            }
+        }
+        let found = sound(&format!("scale {scale}"), &shot);
+        // The same picture but for roundings, which move a sample over an edge here and there.
+        assert!(
+            (found / usual - 1.0).abs() < 0.02,
+            "{scale}: {found} for {usual}"
+        );
     }
 }
 

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use vsgl_core::data::SceneData;
 use vsgl_core::glam::Vec3;
 use vsgl_core::parity::{Origin, Party, Stage, Subject, Tolerance, chain};
-use vsgl_core::scene::{Camera, Light, SpotLight, gltf};
+use vsgl_core::scene::{Camera, DirectionalLight, Light, PointLight, SpotLight, gltf};
 use vsgl_cpu::CpuBackend;
 use vsgl_tests::assets::assets;
 use vsgl_tests::gpu::{Tier, device};
@@ -113,11 +113,73 @@ fn from_a_corner(file: &Path) -> Shot {
         intensity: [30.0 * extent.max_element().powi(2); 3],
         inner: 30f32.to_radians(),
         outer: 40f32.to_radians(),
+        range: f32::INFINITY,
     })];
     let eye = centre + Vec3::new(-0.4, 0.2, 0.45) * extent;
     let camera = Camera::look_at(eye, centre, 50f32.to_radians());
     scene.cameras.insert(0, ("corner".into(), camera));
     Shot::of(scene).size(96, 54).with("lights=64 rsm=128")
+}
+
+/// Lights of all kinds in a room, each alone and all together.
+fn kinds_of_lights() -> Vec<(&'static str, Vec<Light>)> {
+    let point = |x: f32, range: f32| {
+        Light::Point(PointLight {
+            position: Vec3::new(x, 0.55, 0.2),
+            intensity: [3.0, 2.5, 2.0],
+            range,
+        })
+    };
+    let sun = Light::Directional(DirectionalLight {
+        axis: Vec3::new(0.2, -0.8, -0.3).normalize(),
+        irradiance: [2.0, 3.0, 4.0],
+    });
+    let wide = Light::Spot(SpotLight {
+        position: Vec3::new(0.1, 0.9, 0.3),
+        axis: Vec3::new(0.48, -0.6, -0.64),
+        intensity: [4.0; 3],
+        inner: 0.4,
+        outer: 88f32.to_radians(),
+        range: 3.0,
+    });
+    vec![
+        ("a point", vec![point(0.2, f32::INFINITY)]),
+        ("a point with a range", vec![point(-0.2, 1.7)]),
+        ("a sun", vec![sun]),
+        ("a wide spot with a range", vec![wide]),
+        (
+            "all kinds",
+            vec![wide, point(0.3, 2.0), sun, point(-0.4, f32::INFINITY)],
+        ),
+    ]
+}
+
+#[test]
+fn lights_of_all_kinds() {
+    for (name, lights) in kinds_of_lights() {
+        for settings in [
+            "lights=64 rsm=32",
+            "lights=40 rsm=32 clustering=filtered",
+            "lights=40 rsm=16 emission=sg",
+            "method=vpl rsm=8",
+        ] {
+            let mut shot = Shot::sample("cornell").open().with(settings);
+            shot.lights = lights.clone();
+            let name = format!("{name}, {settings}");
+            agree(&name, &shot, Tier::Lavapipe, true);
+            agree(&name, &shot, Tier::Lavapipe, false);
+        }
+    }
+}
+
+#[test]
+fn lights_of_all_kinds_elsewhere() {
+    for (name, lights) in kinds_of_lights() {
+        let mut shot = Shot::sample("cornell").open().with("lights=64 rsm=32");
+        shot.lights = lights.clone();
+        agree(name, &shot, Tier::SwiftShader, true);
+        agree(name, &shot, Tier::Hardware, false);
+    }
 }
 
 #[test]

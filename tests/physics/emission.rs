@@ -31,7 +31,7 @@ fn sender(map: &Rsm, texel: usize, specular: bool) -> PointSender {
         position,
         variance: map.position[texel][3] / 12.0,
         normal: xyz(map.normal[texel]),
-        light: (Vec3::from_array(map.map_of(texel).position) - position).normalize(),
+        light: map.map_of(texel).to_light(position).normalize(),
         dielectric_f0: map.diffuse[texel][3],
         dielectric_f90: map.normal[texel][3],
         alpha: 1.0,

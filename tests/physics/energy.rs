@@ -15,8 +15,9 @@ fn flux_error(inner: f32, outer: f32, size: u32) -> f64 {
         intensity: [1.0; 3],
         inner: inner.to_radians(),
         outer: outer.to_radians(),
+        range: f32::INFINITY,
     });
-    let map = rsm::map(&spot, size);
+    let map = rsm::maps(&[spot], size, Default::default())[0];
     let texels = (0..size * size).map(|i| f64::from(rsm::ray(&map, size, i % size, i / size).1.x));
     let [inner, outer] = [inner, outer].map(|a| f64::from(a).to_radians().cos());
     // The falloff is t², t from 0 to 1 in the cosine: its mean over the rim is a third.

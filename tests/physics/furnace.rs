@@ -45,6 +45,7 @@ fn sphere() -> Scene {
         intensity: [10.0; 3],
         inner: 0.5,
         outer: 0.7,
+        range: f32::INFINITY,
     };
     Scene {
         mesh,

@@ -5,3 +5,4 @@ mod emission;
 mod energy;
 mod furnace;
 mod invariance;
+mod lights;

@@ -1,7 +1,8 @@
 //! Each rule with its reason.
 
+use vsgl_core::glam::Vec3;
 use vsgl_core::plan::Plan;
-use vsgl_core::scene::{Light, Material};
+use vsgl_core::scene::{DirectionalLight, Light, Material, PointLight, SpotLight};
 use vsgl_core::settings::OcclusionMethod;
 use vsgl_tests::render::Shot;
 
@@ -106,6 +107,56 @@ fn matte_scenes_have_no_specular_columns() {
     assert!(
         frame.radiance.indirect_glossy.is_empty() && !frame.radiance.indirect_diffuse.is_empty()
     );
+}
+
+#[test]
+fn many_maps_are_smaller_maps() {
+    let point = Light::Point(PointLight {
+        position: Vec3::Y,
+        intensity: [1.0; 3],
+        range: f32::INFINITY,
+    });
+    let sun = Light::Directional(DirectionalLight {
+        axis: Vec3::NEG_Z,
+        irradiance: [1.0; 3],
+    });
+    let side = |lights: &[Light], rsm: u32| {
+        let mut shot = shot(&format!("rsm={rsm}"));
+        shot.lights = lights.to_vec();
+        let plan = shot.plan();
+        let size = plan.bounce.as_ref().expect("a bounce").rsm.size;
+        let (runs, why) = reason(&plan, "smaller maps").expect("a reason");
+        assert_eq!(runs, size != rsm, "{why}");
+        assert!(why.contains(&format!("{size}²")), "{why}");
+        size
+    };
+    // One map is as large as wanted, and so are a few.
+    assert_eq!(side(&[sun], 4096), 4096);
+    assert_eq!(side(&[sun; 4], 512), 512);
+    assert_eq!(side(&[sun; 5], 512), 256);
+    // A point has six.
+    assert_eq!(side(&[point], 256), 256);
+    assert_eq!(side(&[point], 512), 256);
+    assert_eq!(side(&[point; 5], 512), 128);
+    assert_eq!(side(&[point; 5], 500), 125);
+    assert_eq!(side(&vec![point; 50_000], 512), 1);
+    let mut dark = shot("");
+    dark.lights.clear();
+    assert_eq!(reason(&dark.plan(), "smaller maps"), None);
+}
+
+#[test]
+fn a_cone_too_wide_for_one_map_takes_five() {
+    let maps = |outer: f32| {
+        let mut shot = shot("rsm=16");
+        shot.spots().for_each(|s| s.outer = outer);
+        let facts = shot.facts();
+        assert_eq!(shot.frame().rsm.expect("maps").maps, facts.maps);
+        facts.maps
+    };
+    assert_eq!(maps(SpotLight::ONE_MAP_MAX), 1);
+    assert_eq!(maps(SpotLight::ONE_MAP_MAX + 1e-3), 5);
+    assert_eq!(maps(SpotLight::OUTER_MAX), 5);
 }
 
 #[test]

@@ -172,6 +172,10 @@ const EXPECTED: &[(&str, Expected)] = &[
         NotYet("not perspective", "no orthographic cameras"),
     ),
     (
+        "lights-playcanvas/geometry-camera-light.glb",
+        NotYet("not perspective", "no orthographic cameras"),
+    ),
+    (
         "khronos/BoxVertexColors/BoxVertexColors.glb",
         NotYet("vertex colours", "no vertex colours"),
     ),
@@ -213,23 +217,6 @@ const EXPECTED: &[(&str, Expected)] = &[
     (
         "khronos/MultiUVTest/MultiUVTest.glb",
         NotYet("emission", "its second texture is emissive"),
-    ),
-    ("bevy/Cubes.glb", NotYet("point lights", "spots only")),
-    (
-        "lights-playcanvas/Lights.glb",
-        NotYet("point lights", "spots only"),
-    ),
-    (
-        "lights-playcanvas/geometry-camera-light.glb",
-        NotYet("point lights", "spots only"),
-    ),
-    (
-        "lights-renderling/light_tiling_test.glb",
-        NotYet("directional lights", "spots only"),
-    ),
-    (
-        "lights-renderling/shadow_mapping_points.glb",
-        NotYet("point lights", "spots only"),
     ),
     (
         "lights-atteneder/LightsPoint.gltf",

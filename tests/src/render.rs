@@ -87,15 +87,38 @@ impl Shot {
         let face = |direction: &mut Vec3| *direction = (turn * *direction).normalize();
         self.scene.mesh.positions.iter_mut().for_each(place);
         self.scene.mesh.normals.iter_mut().for_each(face);
-        for spot in self.spots() {
-            place(&mut spot.position);
-            face(&mut spot.axis);
+        for light in &mut self.lights {
+            match light {
+                Light::Spot(spot) => {
+                    place(&mut spot.position);
+                    face(&mut spot.axis);
+                }
+                Light::Point(point) => place(&mut point.position),
+                Light::Directional(sun) => face(&mut sun.axis),
+                _ => panic!("{light:?}"),
+            }
         }
         let camera = &mut self.view.camera;
         place(&mut camera.eye);
         for direction in [&mut camera.forward, &mut camera.right, &mut camera.up] {
             face(direction);
         }
+        self
+    }
+
+    /// Without the triangles that lie at the top of the scene, so that a sun shines into a room.
+    #[must_use]
+    pub fn open(mut self) -> Self {
+        let top = self.scene.bounds().1.y;
+        let mesh = &mut self.scene.mesh;
+        let kept = |triangle: &[u32; 3]| {
+            let corners = triangle.map(|v| mesh.positions[v as usize].y);
+            corners.iter().any(|&y| y < top)
+        };
+        let kept: Vec<bool> = mesh.triangles.iter().map(kept).collect();
+        let (mut triangles, mut materials) = (kept.iter(), kept.iter());
+        mesh.triangles.retain(|_| triangles.next() == Some(&true));
+        mesh.material.retain(|_| materials.next() == Some(&true));
         self
     }
 

@@ -64,6 +64,7 @@ fn light(words: &str, origin: DVec3) -> Light {
         intensity: intensity.to_array(),
         inner: (numbers(parts[4])[0] as f32).to_radians(),
         outer: (numbers(parts[5])[0] as f32).to_radians(),
+        range: f32::INFINITY,
     })
 }
 

@@ -68,6 +68,12 @@ pub struct RsmPlan {
     pub textures: bool,
 }
 
+impl RsmPlan {
+    /// Most texels of several maps together: so many cost about as much as four maps of the default size, and their columns
+    /// are within the smallest buffers that GPUs promise.
+    pub const TEXELS_MAX: u64 = 1 << 20;
+}
+
 /// The density on the texels.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PdfPlan {
@@ -142,6 +148,7 @@ impl Plan {
             ],
             "lights reach surfaces that reflect",
         );
+        let rsm = lit.then(|| reasons.map_size(facts.maps, settings.rsm));
         let senders = lit
             && reasons.decide(
                 "specular lobes of the lights",
@@ -217,9 +224,9 @@ impl Plan {
                 )],
                 "one ray from each pixel to each virtual light",
             );
-        let bounce = lit.then(|| BouncePlan {
+        let bounce = rsm.map(|size| BouncePlan {
             rsm: RsmPlan {
-                size: settings.rsm,
+                size,
                 glossy: senders,
                 anisotropic: stretching,
                 textures,
@@ -292,6 +299,28 @@ impl Reasons {
             why,
         });
         missing.is_none()
+    }
+
+    /// Texels along a side of a map: as wanted, but halved until all maps together are within [`RsmPlan::TEXELS_MAX`].
+    /// One map is as large as wanted.
+    fn map_size(&mut self, maps: u32, wanted: u32) -> u32 {
+        let texels = |side: u32| u64::from(maps) * u64::from(side) * u64::from(side);
+        let mut side = wanted;
+        while maps > 1 && side > 1 && texels(side) > RsmPlan::TEXELS_MAX {
+            side /= 2;
+        }
+        let why = if side == wanted {
+            format!("{maps} of {side}² texels, as wanted")
+        } else {
+            let most = RsmPlan::TEXELS_MAX;
+            format!("{maps} of {wanted}² texels would have more than {most} in all: {side}² each")
+        };
+        self.0.push(Reason {
+            topic: "smaller maps",
+            runs: side != wanted,
+            why,
+        });
+        side
     }
 
     fn no(&mut self, topic: &'static str, why: &str) {

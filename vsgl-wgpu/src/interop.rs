@@ -68,6 +68,7 @@ pub fn host_plan(settings: &Settings, lights: usize, glossy: bool) -> Result<Pla
     let facts = SceneFacts {
         triangles: 1,
         lights,
+        maps: 1,
         glossy_senders: glossy,
         reflecting_senders: true,
         glossy_receivers: glossy,

@@ -37,7 +37,9 @@ pub(crate) fn check(file: &str, name: &str, size: usize, fields: &[(&str, usize)
 #[test]
 fn records_of_the_scene_and_of_lights() {
     use crate::params::{TexelLayout, View};
-    use vsgl_core::data::{DiffuseVsgl, MapRecord, MaterialRecord, SpecularVsgl, TextureRecord};
+    use vsgl_core::data::{
+        DiffuseVsgl, LightRecord, MapRecord, MaterialRecord, SpecularVsgl, TextureRecord,
+    };
     use vsgl_core::geom::BvhNode;
 
     twins!(
@@ -139,6 +141,22 @@ fn records_of_the_scene_and_of_lights() {
             up,
             solid_angle,
             intensity,
+            kind,
+            cone,
+            inverse_range2,
+        }
+    );
+    twins!(
+        "data/lights",
+        "LightRecord",
+        LightRecord {
+            position,
+            cos_inner,
+            axis,
+            cos_outer,
+            intensity,
+            inverse_range2,
+            parallel,
             padding,
         }
     );

@@ -139,15 +139,18 @@ const fn words<T>() -> u32 {
 
 /// Constants of phases and geometry, written once in Rust.
 fn header() -> String {
-    use vsgl_core::data;
-    use vsgl_core::phase::{cluster, facing, partition, pdf, rsm, shade, surface};
+    use vsgl_core::data::{self, map_kind};
+    use vsgl_core::phase::{cluster, direct, facing, partition, pdf, rsm, shade, surface};
     let floats: &[(&str, f32)] = &[
         ("ALPHA_MIN", surface::ALPHA_MIN),
         ("FOOTPRINT_COSINE_MIN", rsm::FOOTPRINT_COSINE_MIN),
         ("VARIANCE_MIN", shade::VARIANCE_MIN),
         ("LIFT", facing::LIFT),
         ("SLAB_EXIT", vsgl_core::geom::SLAB_EXIT),
-        ("STRENGTH_MAX", f32::MAX * 1e-6),
+        ("STRENGTH_MAX", direct::STRENGTH_MAX),
+        ("MAP_CONE", map_kind::CONE),
+        ("MAP_FACE", map_kind::FACE),
+        ("MAP_PARALLEL", map_kind::PARALLEL),
         ("NORMAL_SCALE", partition::NORMAL_SCALE),
         ("BELOW_ONE", pdf::BELOW_ONE),
     ];

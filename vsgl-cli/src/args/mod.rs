@@ -14,7 +14,7 @@ pub use parity::ParityArgs;
 pub use render::{BackendName, InfoArgs, OutputArgs, RenderArgs, When};
 pub use scene::{SceneArgs, ViewArgs};
 pub use settings::SettingsArgs;
-pub use words::{LookAt, Size, Spot};
+pub use words::{LookAt, Point, Size, Spot, Sun};
 
 use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;

@@ -1,6 +1,6 @@
 //! Arguments that choose the scene, its lights, the camera and the size of the picture.
 
-use super::words::{LookAt, Size, Spot, field_of_view};
+use super::words::{LookAt, Point, Size, Spot, Sun, field_of_view};
 use clap::Args;
 
 /// Scene, lights and camera.
@@ -25,6 +25,14 @@ pub struct SceneArgs {
     /// with the falloff of KHR_lights_punctual; without INNER the edge is hard.
     #[arg(long, value_name = "px,py,pz:tx,ty,tz:I:OUTER[:INNER]", value_parser = Spot::parse, allow_hyphen_values = true)]
     pub spot: Vec<Spot>,
+    /// Add a point light at px,py,pz of the radiant intensity I in W/sr, one number or r,g,b (repeatable)
+    #[arg(long, value_name = "px,py,pz:I", value_parser = Point::parse, allow_hyphen_values = true)]
+    pub point: Vec<Point>,
+    /// Add a directional light that travels along dx,dy,dz (repeatable)
+    ///
+    /// E is the irradiance of a surface that faces it in W/m², one number or r,g,b.
+    #[arg(long, value_name = "dx,dy,dz:E", value_parser = Sun::parse, allow_hyphen_values = true)]
+    pub sun: Vec<Sun>,
     /// Switch the scene's own lights off
     #[arg(long)]
     pub only_added_lights: bool,

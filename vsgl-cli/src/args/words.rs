@@ -90,7 +90,7 @@ pub struct Spot {
 }
 
 /// Largest outer half angle of a spot in degrees.
-const OUTER_MAX: f64 = 80.0;
+const OUTER_MAX: f64 = 90.0;
 
 impl Spot {
     /// Reads `px,py,pz:tx,ty,tz:I:OUTER[:INNER]`.
@@ -134,6 +134,72 @@ impl fmt::Display for Spot {
     }
 }
 
+/// A point light in world space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Point {
+    /// Where it is, in metres.
+    pub position: [f64; 3],
+    /// Radiant intensity \[W/sr\].
+    pub intensity: [f64; 3],
+}
+
+impl Point {
+    /// Reads `px,py,pz:I`.
+    ///
+    /// # Errors
+    /// What would be accepted.
+    pub fn parse(word: &str) -> Result<Self, String> {
+        let Some((position, strength)) = word.split_once(':') else {
+            return Err("give px,py,pz:I, a point and a radiant intensity".into());
+        };
+        Ok(Self {
+            position: point(position)?,
+            intensity: intensity(strength)?,
+        })
+    }
+}
+
+impl fmt::Display for Point {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}:{}", list(self.position), list(self.intensity))
+    }
+}
+
+/// A directional light in world space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sun {
+    /// The direction that its light travels in, of any length.
+    pub direction: [f64; 3],
+    /// Irradiance of a surface that faces it \[W/m²\].
+    pub irradiance: [f64; 3],
+}
+
+impl Sun {
+    /// Reads `dx,dy,dz:E`.
+    ///
+    /// # Errors
+    /// What would be accepted.
+    pub fn parse(word: &str) -> Result<Self, String> {
+        let Some((direction, strength)) = word.split_once(':') else {
+            return Err("give dx,dy,dz:E, a direction and an irradiance".into());
+        };
+        let direction = point(direction)?;
+        if direction == [0.0; 3] {
+            return Err("the direction is 0,0,0; give the one that the light travels in".into());
+        }
+        Ok(Self {
+            direction,
+            irradiance: amount(strength, "irradiance", "W/m²")?,
+        })
+    }
+}
+
+impl fmt::Display for Sun {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}:{}", list(self.direction), list(self.irradiance))
+    }
+}
+
 /// Reads a vertical field of view in degrees.
 ///
 /// # Errors
@@ -151,14 +217,18 @@ fn point(word: &str) -> Result<[f64; 3], String> {
     coordinates.try_into().map_err(|_| problem())
 }
 
-/// One number for all three colours, or three.
 fn intensity(word: &str) -> Result<[f64; 3], String> {
+    amount(word, "intensity", "W/sr")
+}
+
+/// One number for all three colours, or three.
+fn amount(word: &str, name: &str, unit: &str) -> Result<[f64; 3], String> {
     let values = numbers(word).filter(|v| v.iter().all(|i| (0.0..=1e30).contains(i)));
     match values.as_deref() {
         Some(&[grey]) => Ok([grey; 3]),
         Some(&[r, g, b]) => Ok([r, g, b]),
         _ => Err(format!(
-            "`{word}` is no intensity; give one number or r,g,b in W/sr, each at least 0"
+            "`{word}` is no {name}; give one number or r,g,b in {unit}, each at least 0"
         )),
     }
 }
@@ -214,6 +284,9 @@ mod tests {
         ] {
             assert_eq!(Spot::parse(word).map(|s| s.to_string()), Ok(word.into()));
         }
+        let word = "1,-2.5,3:9,8,7";
+        assert_eq!(Point::parse(word).map(|p| p.to_string()), Ok(word.into()));
+        assert_eq!(Sun::parse(word).map(|s| s.to_string()), Ok(word.into()));
         let grey = Spot::parse("0,0,0:0,0,1:7:30").map(|s| s.intensity);
         assert_eq!(grey, Ok([7.0; 3]));
         let word = "-278,273,800:-278,273,-280";
@@ -232,12 +305,26 @@ mod tests {
             "0,0,0:0,0,1:-7:30",
             "0,0,0:0,0,1:1,2:30",
             "0,0,0:0,0,1:7:0",
-            "0,0,0:0,0,1:7:90",
+            "0,0,0:0,0,1:7:90.5",
             "0,0,0:0,0,1:7:30:31",
             "0,0,0:0,0,1:7:30:20:10",
         ] {
             assert!(Spot::parse(bad).is_err(), "{bad}");
         }
+        for bad in [
+            "",
+            "0,0,0",
+            "0,0:1",
+            "0,0,0:-1",
+            "0,0,0:1,2",
+            "0,0,NaN:1",
+            "0,0,1:1:1",
+            "0,0,1:inf",
+        ] {
+            assert!(Point::parse(bad).is_err(), "{bad}");
+            assert!(Sun::parse(bad).is_err(), "{bad}");
+        }
+        assert!(Sun::parse("0,0,0:1").is_err());
         for bad in ["", "0,0,0", "0,0,0:0,0,0", "0,0,0:1,1", "a,b,c:d,e,f"] {
             assert!(LookAt::parse(bad).is_err(), "{bad}");
         }

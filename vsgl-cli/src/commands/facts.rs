@@ -114,21 +114,26 @@ fn world(job: &Job, local: Vec3) -> DVec3 {
 
 fn light_text(job: &Job, light: &Light) -> String {
     match light {
-        Light::Spot(spot) => {
-            let [r, g, b] = spot.intensity.map(f64::from).map(short);
-            let intensity = if r == g && g == b {
-                r
-            } else {
-                format!("{r},{g},{b}")
-            };
-            format!(
-                "spot at {} towards {}, {intensity} W/sr, half angles {}° and {}°",
-                point(world(job, spot.position)),
-                point(spot.axis.as_dvec3()),
-                short(f64::from(spot.inner).to_degrees()),
-                short(f64::from(spot.outer).to_degrees()),
-            )
-        }
+        Light::Spot(spot) => format!(
+            "spot at {} towards {}, {} W/sr, half angles {}° and {}°{}",
+            point(world(job, spot.position)),
+            point(spot.axis.as_dvec3()),
+            amount(spot.intensity),
+            short(f64::from(spot.inner).to_degrees()),
+            short(f64::from(spot.outer).to_degrees()),
+            reach(spot.range),
+        ),
+        Light::Point(light) => format!(
+            "point at {}, {} W/sr{}",
+            point(world(job, light.position)),
+            amount(light.intensity),
+            reach(light.range),
+        ),
+        Light::Directional(sun) => format!(
+            "directional along {}, {} W/m²",
+            point(sun.axis.as_dvec3()),
+            amount(sun.irradiance),
+        ),
         _ => "a light of another kind".into(),
     }
 }
@@ -142,9 +147,44 @@ fn light_json(job: &Job, light: &Light) -> Value {
             "intensity": spot.intensity,
             "inner_degrees": f64::from(spot.inner).to_degrees(),
             "outer_degrees": f64::from(spot.outer).to_degrees(),
+            "range": range_json(spot.range),
+        }),
+        Light::Point(light) => json!({
+            "kind": "point",
+            "position": world(job, light.position).to_array(),
+            "intensity": light.intensity,
+            "range": range_json(light.range),
+        }),
+        Light::Directional(sun) => json!({
+            "kind": "directional",
+            "axis": sun.axis.to_array(),
+            "irradiance": sun.irradiance,
         }),
         _ => json!({"kind": "other"}),
     }
+}
+
+/// One number for grey, three for colours.
+fn amount(rgb: [f32; 3]) -> String {
+    let [r, g, b] = rgb.map(f64::from).map(short);
+    if r == g && g == b {
+        r
+    } else {
+        format!("{r},{g},{b}")
+    }
+}
+
+/// The range of a light where it has one.
+fn reach(range: f32) -> String {
+    match range.is_finite() {
+        true => format!(", range {} m", short(f64::from(range))),
+        false => String::new(),
+    }
+}
+
+/// Null: the light reaches everywhere.
+fn range_json(range: f32) -> Value {
+    range.is_finite().then_some(range).into()
 }
 
 fn camera_text(job: &Job, camera: &Camera) -> String {

@@ -1,11 +1,11 @@
 //! Settings, lights and camera, from what was typed and what the scene has.
 
-use crate::args::{SceneArgs, SettingsArgs, Size, Spot};
+use crate::args::{SceneArgs, SettingsArgs, Size, Spot, Sun};
 use crate::exit::{Failure, Result};
 use std::io::Read;
 use std::path::Path;
 use vsgl_core::glam::{DVec3, Vec3};
-use vsgl_core::scene::{Camera, Light, Scene, SpotLight};
+use vsgl_core::scene::{Camera, DirectionalLight, Light, PointLight, Scene, SpotLight};
 use vsgl_core::settings::{Preset, Settings};
 
 /// Greatest distance of an added camera or light from the scene \[m\]: squares of it fit into f32 with room to spare.
@@ -69,6 +69,14 @@ pub(super) fn lights(scene: &Scene, args: &SceneArgs) -> Result<Vec<Light>> {
     for spot in &args.spot {
         lights.push(Light::Spot(spot_light(scene, spot)?));
     }
+    for point in &args.point {
+        lights.push(Light::Point(PointLight {
+            position: local(scene, point.position, "point")?,
+            intensity: point.intensity.map(|i| i as f32),
+            range: f32::INFINITY,
+        }));
+    }
+    lights.extend(args.sun.iter().map(directional_light));
     Ok(lights)
 }
 
@@ -78,12 +86,26 @@ fn spot_light(scene: &Scene, spot: &Spot) -> Result<SpotLight> {
     let inner = spot.inner.unwrap_or(spot.outer).to_radians() as f32;
     Ok(SpotLight {
         position: local(scene, spot.position, "spot")?,
-        // Scaled first: squares of a tiny or huge length would not fit.
-        axis: (axis / axis.abs().max_element()).normalize().as_vec3(),
+        axis: unit(axis),
         intensity: spot.intensity.map(|i| i as f32),
         inner: inner.min(outer),
         outer: outer.min(SpotLight::OUTER_MAX),
+        range: f32::INFINITY,
     })
+}
+
+fn directional_light(sun: &Sun) -> Light {
+    Light::Directional(DirectionalLight {
+        axis: unit(DVec3::from(sun.direction)),
+        irradiance: sun.irradiance.map(|e| e as f32),
+    })
+}
+
+/// A unit vector. Scaled first: squares of a tiny or huge length would not fit.
+fn unit(direction: DVec3) -> Vec3 {
+    (direction / direction.abs().max_element())
+        .normalize()
+        .as_vec3()
 }
 
 /// A world position relative to the scene's origin.

@@ -21,6 +21,8 @@ pub(super) fn scene_words(name: &str, args: &SceneArgs) -> Vec<String> {
         words.extend(["--fov".into(), fov.to_string()]);
     }
     words.extend(args.spot.iter().map(|spot| format!("--spot={spot}")));
+    words.extend(args.point.iter().map(|point| format!("--point={point}")));
+    words.extend(args.sun.iter().map(|sun| format!("--sun={sun}")));
     if args.only_added_lights {
         words.push("--only-added-lights".into());
     }

@@ -6,6 +6,7 @@
 pub(crate) mod columns;
 mod gbuffer;
 mod image;
+mod light;
 mod pdf;
 mod radiance;
 mod rsm;
@@ -15,9 +16,11 @@ mod vsgls;
 pub use columns::{Column, Columns, Element, Scalar};
 pub use gbuffer::GBuffer;
 pub use image::Image;
+pub(crate) use light::ALL_AROUND;
+pub use light::LightRecord;
 pub use pdf::Pdf;
 pub use radiance::Radiance;
-pub use rsm::{MapRecord, Rsm};
+pub use rsm::{MapRecord, Rsm, map_kind};
 pub use scene_data::{
     DOUBLE_SIDED, MIPS, MaterialRecord, NEAREST, NO_TEXTURE, SECOND_SET, SceneData, TextureRecord,
     UNLIT,

@@ -1,7 +1,8 @@
 //! The scene as the phases read it.
 
-use super::columns::{Element, Scalar, columns};
+use super::columns::{Columns, Element, Scalar, columns};
 use crate::geom::BvhNode;
+use glam::Vec3;
 
 /// Texture index of a material without texture.
 pub const NO_TEXTURE: u32 = u32::MAX;
@@ -14,6 +15,18 @@ columns! {
         head {
             /// Bits of the f32 by which ray origins are lifted off surfaces \[m\].
             lift_bits,
+            /// Bits of the least x of all vertices \[m\].
+            low_x_bits,
+            /// Bits of the least y.
+            low_y_bits,
+            /// Bits of the least z.
+            low_z_bits,
+            /// Bits of the greatest x.
+            high_x_bits,
+            /// Bits of the greatest y.
+            high_y_bits,
+            /// Bits of the greatest z.
+            high_z_bits,
         }
         /// Bounding volume hierarchy, root first; empty without triangles.
         node: BvhNode,
@@ -47,6 +60,18 @@ impl SceneData {
     /// Distance by which ray origins are lifted off surfaces \[m\].
     pub fn lift(&self) -> f32 {
         f32::from_bits(self.lift_bits)
+    }
+
+    /// Smallest box around all vertices, as (least, greatest) corner \[m\].
+    pub fn bounds(&self) -> (Vec3, Vec3) {
+        Self::bounds_of(&self.head())
+    }
+
+    /// The same from the head alone; zero if it has too few numbers.
+    pub fn bounds_of(head: &[u32]) -> (Vec3, Vec3) {
+        let number = |i: usize| f32::from_bits(head.get(i).copied().unwrap_or_default());
+        let corner = |first| Vec3::new(number(first), number(first + 1), number(first + 2));
+        (corner(1), corner(4))
     }
 }
 

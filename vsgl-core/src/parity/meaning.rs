@@ -79,7 +79,7 @@ const TABLE: &[Row] = {
         ("rsm", "map", Maps, &[
             ("position", 3, Points), ("tan_half_fov", 1, Numbers), ("axis", 3, Vector), ("cos_inner", 1, Numbers),
             ("right", 3, Vector), ("cos_outer", 1, Numbers), ("up", 3, Vector), ("solid_angle", 1, Numbers),
-            ("intensity", 3, Numbers), ("padding", 1, Numbers),
+            ("intensity", 3, Numbers), ("kind", 1, Whole), ("cone", 3, Vector), ("inverse_range2", 1, Numbers),
         ]),
         ("rsm", "triangle", Texels, &[("", 1, Decision)]),
         ("rsm", "position", Texels, &[("position", 3, Points), ("area", 1, Magnitudes)]),

@@ -140,7 +140,7 @@ impl Sum {
                 along
             };
             let [r90, g90, b90, _] = rsm.grazing[index];
-            let light = normalize(Vec3::from_array(rsm.map_of(index).position) - position);
+            let light = normalize(rsm.map_of(index).to_light(position));
             let mirror = normalize(reflect(light, normal));
             sum.specular = Part::texel(specular, position, normal, area);
             sum.f0 = Vec3::new(r, g, b);
@@ -268,7 +268,7 @@ pub fn lights(sum: &Sum, map: &MapRecord, plan: &ClusterPlan) -> (DiffuseVsgl, S
 }
 
 fn to_light(map: &MapRecord, position: Vec3) -> [f32; 3] {
-    normalize(Vec3::from_array(map.position) - position).to_array()
+    normalize(map.to_light(position)).to_array()
 }
 
 fn diffuse_cosine(sum: &Sum, map: &MapRecord, plan: &ClusterPlan) -> DiffuseVsgl {
@@ -432,7 +432,7 @@ impl Vsgls {
 pub fn target(scene: &SceneData, rsm: &Rsm, texel: u32) -> Target {
     let [x, y, z, _] = rsm.position[texel as usize];
     let position = Vec3::new(x, y, z);
-    let light = Vec3::from_array(rsm.map_of(texel as usize).position) - position;
+    let light = rsm.map_of(texel as usize).to_light(position);
     let triangle = rsm.triangle[texel as usize];
     let normal = if triangle == NO_TRIANGLE {
         Vec3::Z

@@ -2,31 +2,35 @@
 
 use super::facing::lift;
 use super::shade::{Colors, Incoming, Receiver, fresnel_weight, glossy_point, lambert_constant};
-use crate::data::SceneData;
+use crate::data::{LightRecord, SceneData};
 use crate::geom::{Ray, any_hit};
 use crate::math::vec::normalize;
-use crate::scene::{Light, SpotLight};
+use crate::scene::SpotLight;
+use crate::scene::light::window;
 use crate::sg::lobe::SHARPNESS_MAX;
 use glam::Vec3;
 
+/// Most that one over the square of a distance is taken for \[1/m²\]: keeps products of it finite.
+pub const STRENGTH_MAX: f32 = f32::MAX * 1e-6;
+
 /// What a light brings to a point, shadows left aside.
-pub fn incoming(light: &Light, position: Vec3) -> Incoming {
-    let Light::Spot(SpotLight {
-        position: source,
-        axis,
-        intensity,
-        inner,
-        outer,
-    }) = *light;
-    let apart = source - position;
+pub fn incoming(light: &LightRecord, position: Vec3) -> Incoming {
+    let axis = Vec3::from_array(light.axis);
+    let apart = Vec3::from_array(light.position) - position;
     let distance2 = apart.dot(apart).max(f32::MIN_POSITIVE);
-    let direction = normalize(apart);
-    let falloff = SpotLight::falloff(-direction.dot(axis), inner.cos(), outer.cos());
+    let (direction, share) = if light.parallel != 0 {
+        (-axis, 1.0)
+    } else {
+        let direction = normalize(apart);
+        let falloff = SpotLight::falloff(-direction.dot(axis), light.cos_inner, light.cos_outer);
+        let left = falloff * window(distance2, light.inverse_range2);
+        (direction, (left / distance2).min(STRENGTH_MAX))
+    };
     Incoming {
         axis: direction,
         sharpness: SHARPNESS_MAX,
         horizon: SHARPNESS_MAX,
-        strength: Vec3::from_array(intensity) * (falloff / distance2).min(f32::MAX * 1e-6),
+        strength: Vec3::from_array(light.intensity) * share,
     }
 }
 
@@ -35,14 +39,11 @@ pub fn incoming(light: &Light, position: Vec3) -> Incoming {
 /// `facing` is the geometric normal on the side of the eye.
 pub fn radiance(
     scene: &SceneData,
-    light: &Light,
+    light: &LightRecord,
     receiver: &Receiver,
     facing: Vec3,
     colors: &Colors,
 ) -> Vec3 {
-    let Light::Spot(SpotLight {
-        position: source, ..
-    }) = *light;
     let incoming = incoming(light, receiver.position);
     let lambert = lambert_constant(&incoming, receiver) * std::f32::consts::FRAC_1_PI;
     let specular = glossy_point(&incoming, receiver);
@@ -53,8 +54,13 @@ pub fn radiance(
         return Vec3::ZERO;
     }
     let origin = receiver.position + facing * lift(scene.lift(), receiver.position);
-    let ray = Ray::new(origin, source - origin);
-    if any_hit(&scene.node, &scene.corner, &ray, 1.0) {
+    // Up to the light, or out of the scene.
+    let (towards, end) = if light.parallel != 0 {
+        (incoming.axis, f32::MAX)
+    } else {
+        (Vec3::from_array(light.position) - origin, 1.0)
+    };
+    if any_hit(&scene.node, &scene.corner, &Ray::new(origin, towards), end) {
         Vec3::ZERO
     } else {
         reflected

@@ -344,7 +344,7 @@ impl PointSender {
             position,
             variance: rsm.position[texel][3] * (1.0 / 12.0),
             normal: xyz(rsm.normal[texel]),
-            light: normalize(Vec3::from_array(rsm.map_of(texel).position) - position),
+            light: normalize(rsm.map_of(texel).to_light(position)),
             diffuse: xyz(rsm.diffuse[texel]),
             dielectric_f0: rsm.diffuse[texel][3],
             dielectric_f90: rsm.normal[texel][3],

@@ -1,6 +1,6 @@
 //! What a scene contains, as far as the plan asks.
 
-use super::{Camera, Light, Scene, Slot, SpotLight};
+use super::{Camera, DirectionalLight, Light, PointLight, Scene, Slot, SpotLight};
 use glam::Vec3;
 
 /// Findings about a scene under its lights, seen by a camera. Each is conservative: "no" is certain.
@@ -10,6 +10,8 @@ pub struct SceneFacts {
     pub triangles: usize,
     /// Number of lights.
     pub lights: usize,
+    /// Number of their maps: see [`Light::maps`].
+    pub maps: u32,
     /// Some triangle that the lights may reach is glossy.
     pub glossy_senders: bool,
     /// Some triangle that the lights may reach reflects anything at all.
@@ -32,6 +34,9 @@ impl SceneFacts {
         let mut facts = Self {
             triangles: scene.mesh.triangles.len(),
             lights: lights.len(),
+            maps: lights
+                .iter()
+                .fold(0, |sum, light| light.maps().saturating_add(sum)),
             glossy_senders: false,
             reflecting_senders: false,
             glossy_receivers: false,
@@ -71,20 +76,29 @@ fn sphere(corners: [Vec3; 3]) -> (Vec3, f32) {
     (centre, radius * 1.001)
 }
 
-/// False only if no point of the triangle lies inside the light's cone.
+/// False only if no point of the triangle lies inside the light's cone and range.
 fn may_reach(light: &Light, corners: [Vec3; 3]) -> bool {
-    let Light::Spot(SpotLight {
-        position,
-        axis,
-        outer,
-        ..
-    }) = *light;
     let (centre, radius) = sphere(corners);
-    let to_centre = centre - position;
-    let along = to_centre.dot(axis);
-    let across = (to_centre - axis * along).length();
-    // Signed distance from the cone's mantle.
-    across * outer.cos() - along * outer.sin() <= radius
+    let in_range = |position: Vec3, range: f32| centre.distance(position) - radius <= range;
+    match *light {
+        Light::Spot(SpotLight {
+            position,
+            axis,
+            outer,
+            range,
+            ..
+        }) => {
+            let to_centre = centre - position;
+            let along = to_centre.dot(axis);
+            let across = (to_centre - axis * along).length();
+            // Signed distance from the cone's mantle.
+            across * outer.cos() - along * outer.sin() <= radius && in_range(position, range)
+        }
+        Light::Point(PointLight {
+            position, range, ..
+        }) => in_range(position, range),
+        Light::Directional(DirectionalLight { .. }) => true,
+    }
 }
 
 /// False only if the whole triangle lies behind the camera.
@@ -123,6 +137,7 @@ mod tests {
             intensity: [1.0; 3],
             inner: 0.2,
             outer: 30f32.to_radians(),
+            range: f32::INFINITY,
         })
     }
 
@@ -172,6 +187,26 @@ mod tests {
     }
 
     #[test]
+    fn ranges_end_and_the_sun_is_everywhere() {
+        let light = |range| {
+            let (position, intensity) = (Vec3::ZERO, [1.0; 3]);
+            Light::Point(PointLight {
+                position,
+                intensity,
+                range,
+            })
+        };
+        let five_off = around(Vec3::Y * 5.0);
+        assert!(may_reach(&light(f32::INFINITY), five_off) && may_reach(&light(5.1), five_off));
+        assert!(!may_reach(&light(4.7), five_off));
+        let (axis, irradiance) = (Vec3::Y, [1.0; 3]);
+        assert!(may_reach(
+            &Light::Directional(DirectionalLight { axis, irradiance }),
+            five_off
+        ));
+    }
+
+    #[test]
     fn matte_surfaces_reflect_without_gloss_and_black_ones_not_at_all() {
         let ahead = Vec3::NEG_Z * 5.0;
         let matte = facts(ahead, Material::lambert("", [0.5; 3]));
@@ -212,15 +247,22 @@ mod tests {
             position in coordinate(),
             target in coordinate(),
             outer in 0.01f32..SpotLight::OUTER_MAX,
+            range in prop_oneof![Just(f32::INFINITY), 0.1f32..10.0],
             (u, v) in (0.0f32..1.0, 0.0f32..1.0),
         ) {
             let axis = (target - position).normalize_or(Vec3::X);
             let (u, v) = if u + v > 1.0 { (1.0 - u, 1.0 - v) } else { (u, v) };
             let point = corners[0] + (corners[1] - corners[0]) * u + (corners[2] - corners[0]) * v;
             let direction = (point - position).normalize_or(axis);
-            let light = Light::Spot(SpotLight { position, axis, intensity: [1.0; 3], inner: 0.0, outer });
-            if direction.dot(axis) > outer.cos() {
-                prop_assert!(may_reach(&light, corners));
+            let intensity = [1.0; 3];
+            let spot = Light::Spot(SpotLight { position, axis, intensity, inner: 0.0, outer, range });
+            let near = point.distance(position) < range;
+            if near && direction.dot(axis) > outer.cos() {
+                prop_assert!(may_reach(&spot, corners));
+            }
+            if near {
+                let point = Light::Point(PointLight { position, intensity, range });
+                prop_assert!(may_reach(&point, corners));
             }
         }
     }

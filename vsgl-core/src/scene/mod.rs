@@ -7,14 +7,14 @@ mod camera;
 pub mod facts;
 #[cfg(feature = "gltf")]
 pub mod gltf;
-mod light;
+pub mod light;
 mod material;
 mod prepare;
 pub mod samples;
 
 pub use camera::Camera;
 pub use facts::SceneFacts;
-pub use light::{Light, SpotLight};
+pub use light::{DirectionalLight, Light, PointLight, SpotLight};
 pub use material::{Filter, Material, Slot, Texture, TextureRef, Wrap};
 
 use glam::{DVec3, Vec2, Vec3, Vec4};

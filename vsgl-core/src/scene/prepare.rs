@@ -47,6 +47,12 @@ impl SceneData {
         };
         Self {
             lift_bits: (LIFT_LEAST * (high - low).length()).to_bits(),
+            low_x_bits: low.x.to_bits(),
+            low_y_bits: low.y.to_bits(),
+            low_z_bits: low.z.to_bits(),
+            high_x_bits: high.x.to_bits(),
+            high_y_bits: high.y.to_bits(),
+            high_z_bits: high.z.to_bits(),
             corner: order().map(|i| corners[i]).collect(),
             corner_normal: order()
                 .map(|i| spread(&mesh.triangles[i], |v| mesh.normals[v].to_array()))

@@ -7,14 +7,13 @@ use multiversion::multiversion;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use vsgl_core::backend::{Senders, ShadeInputs};
-use vsgl_core::data::{GBuffer, NO_TRIANGLE, Radiance, Rsm, SceneData, Target, Vsgls};
+use vsgl_core::data::{GBuffer, LightRecord, NO_TRIANGLE, Radiance, Rsm, SceneData, Target, Vsgls};
 use vsgl_core::geom::any_hit_block;
 use vsgl_core::phase::direct;
 use vsgl_core::phase::facing::{geometric_normal, lift};
 use vsgl_core::phase::shade::{Colors, PointSender, Receiver};
 use vsgl_core::plan::ShadePlan;
 use vsgl_core::render::{Observer, Phase};
-use vsgl_core::scene::Light;
 use vsgl_core::settings::OcclusionMethod;
 use vsgl_core::{Error, Result};
 
@@ -43,11 +42,12 @@ pub(crate) fn run(
         Senders::Vsgls(vsgls) => Indirect::Vsgls(vsgls),
         Senders::Vpls(rsm) => Indirect::Vpls(&points, rsm),
     };
+    let lights: Vec<LightRecord> = lights.iter().map(LightRecord::from).collect();
     let shader = Shader {
         scene,
         gbuffer,
         eye: view.camera.eye,
-        lights,
+        lights: &lights,
         indirect,
         plan,
     };
@@ -123,7 +123,7 @@ struct Shader<'a> {
     scene: &'a SceneData,
     gbuffer: &'a GBuffer,
     eye: Vec3,
-    lights: &'a [Light],
+    lights: &'a [LightRecord],
     indirect: Indirect<'a>,
     plan: &'a ShadePlan,
 }

@@ -71,6 +71,7 @@ pub(crate) fn lamp() -> Light {
         intensity: [60.0, 56.0, 50.0],
         inner: 0.45,
         outer: 0.6,
+        range: f32::INFINITY,
     })
 }
 

@@ -59,13 +59,14 @@ fn import_rsm(
     let side = 2.0 / f32(size);
     let volume = abs(dot(direction, cross(params.across, params.upwards))) * (side * side);
     let solid_angle = volume / (length * length * length);
-    let falloff = spot_light_falloff(dot(direction, map.axis) / length, map.cos_inner, map.cos_outer);
-    let flux = map.intensity * (falloff * solid_angle);
+    let falloff = spot_light_falloff(dot(direction, map.cone) / length, map.cos_inner, map.cos_outer);
+    var flux = map.intensity * (falloff * solid_angle);
 
     var found = host_surface(host, texel);
     let apart = map.position - found.position;
     let distance = sqrt(dot(apart, apart));
     let light = apart / max(distance, 1e-18);
+    flux = flux * light_window(distance * distance, map.inverse_range2);
     var id = NO_TRIANGLE;
     var position = vec4(0.0);
     var normal = vec4(0.0, 0.0, 1.0, 0.0);

@@ -44,7 +44,7 @@ fn senders(
         across = tangent.w;
         turn = anisotropic_turn_of(normal.xyz, tangent.xyz);
     }
-    let apart = map[i / params.map_texels].position - position.xyz;
+    let apart = map_record_to_light(map[i / params.map_texels], position.xyz);
     var facing = vec3(0.0, 0.0, 1.0);
     if triangle[i] != NO_TRIANGLE {
         facing = surface_geometric_normal(triangle[i], apart);

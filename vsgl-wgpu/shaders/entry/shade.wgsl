@@ -37,7 +37,7 @@ struct Count {
 // Columns position, normal, diffuse, specular, tangent of the G-buffer.
 @group(0) @binding(4) var<storage, read> receiver: array<vec4<f32>>;
 @group(0) @binding(5) var<storage, read> grazing: array<f32>;
-@group(0) @binding(6) var<storage, read> direct_light: array<DirectLight>;
+@group(0) @binding(6) var<storage, read> direct_light: array<LightRecord>;
 @group(0) @binding(7) var<storage, read> lights: array<vec4<f32>>;
 @group(0) @binding(8) var<storage, read> sender: array<vec4<f32>>;
 // Number of clusters.

@@ -87,7 +87,7 @@ fn sum_texel(index: u32, count: u32, map_texels: u32) -> Sum {
             alpha = sqrt(near.w * texel[5u * count + index].w);
         }
         let specular = grazing.w;
-        let light = vec_normalize(map[index / map_texels].position - position);
+        let light = vec_normalize(map_record_to_light(map[index / map_texels], position));
         let mirror = vec_normalize(vec_reflect(light, normal));
         sum.specular = part_texel(specular, position, normal, place.w);
         sum.f0 = near.xyz;
@@ -193,7 +193,7 @@ fn cluster_lights(sum: Sum, record: MapRecord) -> Lights {
 }
 
 fn cluster_to_light(record: MapRecord, position: vec3<f32>) -> vec3<f32> {
-    return vec_normalize(record.position - position);
+    return vec_normalize(map_record_to_light(record, position));
 }
 
 fn cluster_diffuse_cosine(sum: Sum, record: MapRecord) -> DiffuseVsgl {
@@ -293,7 +293,7 @@ fn cluster_specular_power(sum: Sum) -> vec3<f32> {
 
 fn cluster_target(index: u32, map_texels: u32) -> Target {
     let position = texel[index].xyz;
-    let light = map[index / map_texels].position - position;
+    let light = map_record_to_light(map[index / map_texels], position);
     var normal = vec3(0.0, 0.0, 1.0);
     if triangle[index] != NO_TRIANGLE {
         normal = surface_geometric_normal(triangle[index], light);

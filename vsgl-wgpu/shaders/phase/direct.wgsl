@@ -1,34 +1,26 @@
 //! needs: data/lights, geom/traverse, phase/facing, phase/shade
 // Light of the lights themselves at one receiver. Twin of `vsgl-core/src/phase/direct.rs`.
 
-struct DirectLight {
-    position: vec3<f32>,
-    cos_inner: f32,
-    axis: vec3<f32>,
-    cos_outer: f32,
-    intensity: vec3<f32>,
-    padding: f32,
-}
-
 // What a light brings to a point, shadows left aside.
-fn direct_incoming(light: DirectLight, position: vec3<f32>) -> Incoming {
+fn direct_incoming(light: LightRecord, position: vec3<f32>) -> Incoming {
     let apart = light.position - position;
     let distance2 = max(dot(apart, apart), F32_MIN_POSITIVE);
-    let direction = vec_normalize(apart);
-    let falloff = spot_light_falloff(-dot(direction, light.axis), light.cos_inner, light.cos_outer);
-    return Incoming(
-        direction,
-        SHARPNESS_MAX,
-        SHARPNESS_MAX,
-        light.intensity * min(falloff / distance2, STRENGTH_MAX),
-    );
+    var direction = -light.axis;
+    var share = 1.0;
+    if light.parallel == 0u {
+        direction = vec_normalize(apart);
+        let falloff = spot_light_falloff(-dot(direction, light.axis), light.cos_inner, light.cos_outer);
+        let left = falloff * light_window(distance2, light.inverse_range2);
+        share = min(left / distance2, STRENGTH_MAX);
+    }
+    return Incoming(direction, SHARPNESS_MAX, SHARPNESS_MAX, light.intensity * share);
 }
 
 // Radiance to the eye from one light, with a shadow ray where it would shine.
 fn direct_radiance(
     nodes: u32,
     lift: f32,
-    light: DirectLight,
+    light: LightRecord,
     receiver: Receiver,
     facing: vec3<f32>,
     colors: Colors,
@@ -42,8 +34,14 @@ fn direct_radiance(
         return vec3(0.0);
     }
     let origin = receiver.position + facing * surface_lift(lift, receiver.position);
-    let ray = ray_new(origin, light.position - origin);
-    if traverse_any_hit(nodes, ray, 1.0) {
+    // Up to the light, or out of the scene.
+    var towards = incoming.axis;
+    var end = F32_MAX;
+    if light.parallel == 0u {
+        towards = light.position - origin;
+        end = 1.0;
+    }
+    if traverse_any_hit(nodes, ray_new(origin, towards), end) {
         return vec3(0.0);
     }
     return reflected;

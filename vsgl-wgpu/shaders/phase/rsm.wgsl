@@ -11,9 +11,15 @@ fn rsm_ray(map: MapRecord, size: u32, x: u32, y: u32) -> RsmRay {
     let side = 2.0 * map.tan_half_fov / f32(size);
     let across = (f32(x) + 0.5) * side - map.tan_half_fov;
     let upwards = map.tan_half_fov - (f32(y) + 0.5) * side;
-    let direction = (map.axis + map.right * across) + map.up * upwards;
+    let right = map.right * across;
+    let up = map.up * upwards;
+    if map.kind == MAP_PARALLEL {
+        return RsmRay(ray_new((map.position + right) + up, map.axis), map.intensity * map.solid_angle);
+    }
+    let direction = (map.axis + right) + up;
     let cosine = 1.0 / sqrt((1.0 + across * across) + upwards * upwards);
-    let falloff = spot_light_falloff(cosine, map.cos_inner, map.cos_outer);
+    let from_cone = select(cosine, dot(direction, map.cone) * cosine, map.kind == MAP_FACE);
+    let falloff = spot_light_falloff(from_cone, map.cos_inner, map.cos_outer);
     let solid_angle = map.solid_angle * (cosine * cosine * cosine);
     return RsmRay(ray_new(map.position, direction), map.intensity * (falloff * solid_angle));
 }
@@ -37,14 +43,19 @@ fn rsm_empty() -> Texel {
 }
 
 // The texel at a hit of its ray.
-fn rsm_texel(map: MapRecord, size: u32, ray: Ray, flux: vec3<f32>, hit: Hit) -> Texel {
+fn rsm_texel(map: MapRecord, size: u32, ray: Ray, sent: vec3<f32>, hit: Hit) -> Texel {
     let seen = surface_at_hit(hit, ray.direction);
     let length = sqrt(dot(ray.direction, ray.direction));
     let light = ray.direction * (-1.0 / length);
     let normal = surface_geometric_normal(hit.triangle, light);
     let facing = max(dot(normal, light), FOOTPRINT_COSINE_MIN);
+    let distance = hit.t * length;
+    let flux = sent * light_window(distance * distance, map.inverse_range2);
     let side = 2.0 * map.tan_half_fov / f32(size) * hit.t;
-    let area = side * side / (length * facing);
+    let parallel = map.kind == MAP_PARALLEL;
+    let across = select(side * side, map.solid_angle, parallel);
+    let slant = select(length * facing, facing, parallel);
+    let area = across / slant;
     let albedo = albedo_ggx_albedo(dot(seen.normal, light), seen.alpha);
     let f0 = seen.f0 * flux;
     let f90 = flux * seen.f90;

@@ -102,7 +102,8 @@ pub struct HostGBuffer<'a> {
 /// What a light of the host sees, all textures square and of one size, level 0.
 #[derive(Clone, Copy, Debug)]
 pub struct HostMap<'a> {
-    /// The light, at the eye of the map. What lies outside its cone is dark, wherever the map's borders are.
+    /// The light, a spot or a point, at the eye of the map. What lies outside a spot's cone is dark, wherever the map's borders are;
+    /// faces around a point are maps of their own, and must neither overlap nor leave gaps.
     pub light: &'a Light,
     /// Where surfaces are.
     pub place: Place<'a>,
@@ -216,13 +217,21 @@ impl HostMap<'_> {
     /// A plane across the view, as seen from the light: its place (0, 0) of clip space, and what one unit adds to it along each
     /// side.
     pub(crate) fn plane(&self) -> Result<[Vec3; 3]> {
-        let Light::Spot(light) = self.light else {
-            unreachable!("spot lights are all there are")
+        let (position, axis) = match self.light {
+            Light::Spot(spot) => (spot.position, Some(spot.axis)),
+            Light::Point(point) => (point.position, None),
+            _ => {
+                return Err(Error::setting(
+                    "rsm",
+                    "a map of a light without a position",
+                    "give maps of spots and points; `trace_rsm` makes those of others",
+                ));
+            }
         };
         let matrix: DMat4 = self.inverse_view_projection.as_dmat4();
         // Half of the range of depth is a plane between near and far by every convention.
         let at = |x: f64, y: f64, z: f64| {
-            matrix.project_point3(DVec3::new(x, y, z)) - light.position.as_dvec3()
+            matrix.project_point3(DVec3::new(x, y, z)) - position.as_dvec3()
         };
         let centre = at(0.0, 0.0, 0.5);
         let (across, upwards) = (at(1.0, 0.0, 0.5) - centre, at(0.0, 1.0, 0.5) - centre);
@@ -232,7 +241,7 @@ impl HostMap<'_> {
         let other = at(1.0, 1.0, 0.25);
         let bent = corner.distance(centre + across + upwards);
         let aside = corner.normalize_or_zero().cross(other.normalize_or_zero());
-        let facing = centre.dot(light.axis.as_dvec3());
+        let facing = axis.map_or(1.0, |axis| centre.dot(axis.as_dvec3()));
         let sound = scale.is_finite() && bent <= 1e-3 * scale && aside.length() <= 1e-3;
         if !(sound && scale > 0.0 && other.length() > 0.0 && facing > 0.0) {
             return Err(Error::setting(

@@ -8,7 +8,7 @@ use crate::res::WgpuRes;
 use bytemuck::{Pod, Zeroable};
 use vsgl_core::Result;
 use vsgl_core::data::{GBuffer, MapRecord, Rsm, SceneData};
-use vsgl_core::phase::rsm::map;
+use vsgl_core::phase::rsm::around;
 use vsgl_core::plan::{GBufferPlan, RsmPlan};
 
 /// Twin of `Host` in `data/host.wgsl`.
@@ -273,7 +273,7 @@ pub(crate) fn rsm(
                 to_world,
                 from.dielectric_f0,
             ),
-            map: map(from.light, size),
+            map: around(from.light, size),
             centre: plane[0].to_array(),
             first: (index as u64 * side) as u32,
             across: plane[1].to_array(),

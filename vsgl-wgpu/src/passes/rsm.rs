@@ -8,7 +8,7 @@ use crate::res::WgpuRes;
 use bytemuck::{Pod, Zeroable};
 use vsgl_core::Result;
 use vsgl_core::data::{MapRecord, Rsm, SceneData};
-use vsgl_core::phase::rsm::map;
+use vsgl_core::phase::rsm::maps;
 use vsgl_core::plan::RsmPlan;
 use vsgl_core::scene::Light;
 
@@ -48,7 +48,7 @@ pub(crate) fn record(
     plan: &RsmPlan,
 ) -> Result<WgpuRes<Rsm>> {
     let context = recorder.context();
-    let maps: Vec<MapRecord> = lights.iter().map(|light| map(light, plan.size)).collect();
+    let maps = maps(lights, plan.size, SceneData::bounds_of(&scene.head));
     let side = u64::from(plan.size) * u64::from(plan.size);
     let count = side * maps.len() as u64;
     let glossy = if plan.glossy { count } else { 0 };

@@ -12,9 +12,8 @@ use std::ops::Range;
 use std::sync::Arc;
 use vsgl_core::Result;
 use vsgl_core::backend::{Senders, ShadeInputs};
-use vsgl_core::data::Radiance;
+use vsgl_core::data::{LightRecord, Radiance};
 use vsgl_core::plan::ShadePlan;
-use vsgl_core::scene::{Light, SpotLight};
 use vsgl_core::settings::{DiffuseForm, Emission, GlossyForm, OcclusionMethod};
 
 /// Pairs of sample and light in one dispatch, about: so much a GPU does in a tenth of a second or less, which no watchdog
@@ -43,41 +42,6 @@ struct Params {
     first_light: u32,
     end_light: u32,
     padding: u32,
-}
-
-/// Twin of `DirectLight` in `phase/direct.wgsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Pod, Zeroable)]
-struct DirectLight {
-    position: [f32; 3],
-    cos_inner: f32,
-    axis: [f32; 3],
-    cos_outer: f32,
-    intensity: [f32; 3],
-    padding: f32,
-}
-
-impl From<&Light> for DirectLight {
-    fn from(light: &Light) -> Self {
-        let Light::Spot(SpotLight {
-            position,
-            axis,
-            intensity,
-            inner,
-            outer,
-        }) = *light
-        else {
-            unreachable!("spot lights are all there are")
-        };
-        Self {
-            position: position.to_array(),
-            cos_inner: inner.cos(),
-            axis: axis.to_array(),
-            cos_outer: outer.cos(),
-            intensity,
-            padding: 0.0,
-        }
-    }
 }
 
 /// Twin of `Params` in `entry/senders.wgsl`.
@@ -148,7 +112,7 @@ impl Shading {
                 ("indirect_glossy", 12, glossy),
             ],
         )?;
-        let lights: Vec<DirectLight> = inputs.lights.iter().map(DirectLight::from).collect();
+        let lights: Vec<LightRecord> = inputs.lights.iter().map(LightRecord::from).collect();
         let bytes = bytemuck::cast_slice(&lights);
         let direct_lights = context.buffer("the lights", bytes.len() as u64)?;
         if !bytes.is_empty() {
@@ -381,7 +345,7 @@ fn constants(plan: &ShadePlan) -> [Constant; 8] {
 
 #[cfg(test)]
 mod tests {
-    use super::{DirectLight, Params, SenderParams};
+    use super::{Params, SenderParams};
     use crate::layout::twins;
 
     #[test]
@@ -399,18 +363,6 @@ mod tests {
                 lights,
                 first_light,
                 end_light
-            }
-        );
-        twins!(
-            "entry/shade",
-            "DirectLight",
-            DirectLight {
-                position,
-                cos_inner,
-                axis,
-                cos_outer,
-                intensity,
-                padding,
             }
         );
         twins!(

@@ -4,15 +4,15 @@ use super::document::{Document, lookup};
 use super::fault::{Fault, Result};
 use super::nodes::Placed;
 use super::warnings::Warnings;
-use crate::scene::{Light, SpotLight};
+use crate::scene::{DirectionalLight, Light, PointLight, SpotLight};
 use glam::DVec3;
 use gltf::json::extensions::scene::khr_lights_punctual::{self, Type};
 use gltf::json::validation::Checked;
 use std::f32::consts::FRAC_PI_2;
 
-/// Spots that the nodes hold. Other lights are left out with a warning.
+/// Lights that the nodes hold.
 ///
-/// The intensity [cd] is taken for \[W/sr\] as it stands.
+/// Intensities in candela are taken for \[W/sr\] as they stand, those in lux for \[W/m²\].
 pub(super) fn collect(
     document: &Document,
     placed: &[Placed<'_>],
@@ -48,21 +48,10 @@ fn read(
     origin: DVec3,
     warnings: &mut Warnings,
 ) -> Result<Option<Light>> {
-    match light.type_ {
-        Checked::Valid(Type::Spot) => {}
-        Checked::Valid(Type::Point) => {
-            warnings.add("point lights are left out");
-            return Ok(None);
-        }
-        Checked::Valid(Type::Directional) => {
-            warnings.add("directional lights are left out");
-            return Ok(None);
-        }
-        Checked::Invalid => {
-            warnings.add("lights of unknown type are left out");
-            return Ok(None);
-        }
-    }
+    let Checked::Valid(kind) = light.type_ else {
+        warnings.add("lights of unknown type are left out");
+        return Ok(None);
+    };
     let here = format!("extensions.KHR_lights_punctual.lights[{index}]");
     let intensity = light.color.map(|c| c * light.intensity);
     if intensity.iter().any(|i| !i.is_finite() || *i < 0.0) {
@@ -81,25 +70,41 @@ fn read(
         warnings.add("lights too far off, or scaled to nothing, are left out");
         return Ok(None);
     };
-    if light.range.is_some() {
-        warnings.add("the range of lights is ignored: they reach everywhere");
+    let axis = axis.as_vec3().normalize();
+    let range = light.range.unwrap_or(f32::INFINITY);
+    if range <= 0.0 {
+        return Err(Fault::new(
+            here,
+            format!("range {range}"),
+            "a range is greater than 0, or left out",
+        ));
     }
-    let (inner, outer) = cone(light.spot.as_ref(), &here, warnings)?;
-    Ok(Some(Light::Spot(SpotLight {
-        position,
-        axis: axis.as_vec3().normalize(),
-        intensity,
-        inner,
-        outer,
-    })))
+    Ok(Some(match kind {
+        Type::Spot => {
+            let (inner, outer) = cone(light.spot.as_ref(), &here)?;
+            Light::Spot(SpotLight {
+                position,
+                axis,
+                intensity,
+                inner,
+                outer,
+                range,
+            })
+        }
+        Type::Point => Light::Point(PointLight {
+            position,
+            intensity,
+            range,
+        }),
+        Type::Directional => Light::Directional(DirectionalLight {
+            axis,
+            irradiance: intensity,
+        }),
+    }))
 }
 
 /// Inner and outer half angle.
-fn cone(
-    spot: Option<&khr_lights_punctual::Spot>,
-    here: &str,
-    warnings: &mut Warnings,
-) -> Result<(f32, f32)> {
+fn cone(spot: Option<&khr_lights_punctual::Spot>, here: &str) -> Result<(f32, f32)> {
     let Some(spot) = spot else {
         return Err(Fault::new(
             format!("{here}.spot"),
@@ -115,12 +120,6 @@ fn cone(
             format!("{here}.spot"),
             format!("inner cone angle {inner}, outer {outer}"),
             "0 <= inner <= outer <= pi/2 is expected, and outer > 0",
-        ));
-    }
-    if outer > SpotLight::OUTER_MAX {
-        warnings.add(format!(
-            "cones of lights are narrowed to {:.0} degrees from the axis",
-            SpotLight::OUTER_MAX.to_degrees()
         ));
     }
     let outer = outer.min(SpotLight::OUTER_MAX);

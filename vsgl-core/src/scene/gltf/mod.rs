@@ -60,9 +60,8 @@ pub use limits::Limits;
 /// Read are triangles with normals, colours and texture coordinates, moved by morph targets at their default weights
 /// and by skins at rest, copied by nodes and by `EXT_mesh_gpu_instancing`; metallic-roughness materials with their textures (PNG and
 /// JPEG), `KHR_materials_specular` and `KHR_materials_ior` (factors), `KHR_texture_transform`,
-/// `KHR_mesh_quantization`, spots of `KHR_lights_punctual`, and perspective cameras. What else a file holds is left
-/// out with a line in [`Scene::warnings`]; if the file *requires* it, it is refused. Cones wider than
-/// [`SpotLight::OUTER_MAX`](super::SpotLight::OUTER_MAX) are narrowed, with a warning.
+/// `KHR_mesh_quantization`, `KHR_lights_punctual`, and perspective cameras. What else a file holds is left
+/// out with a line in [`Scene::warnings`]; if the file *requires* it, it is refused.
 ///
 /// Node transforms are composed in f64. A scene without triangles is no error here.
 ///

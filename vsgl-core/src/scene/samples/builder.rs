@@ -177,6 +177,7 @@ impl Builder {
             intensity: spot.intensity,
             inner: spot.inner.to_radians(),
             outer: spot.outer.to_radians(),
+            range: f32::INFINITY,
         }));
     }
 
@@ -197,8 +198,11 @@ impl Builder {
             *position -= centre;
         }
         for light in &mut scene.lights {
-            let Light::Spot(spot) = light;
-            spot.position -= centre;
+            match light {
+                Light::Spot(spot) => spot.position -= centre,
+                Light::Point(point) => point.position -= centre,
+                Light::Directional(_) => {}
+            }
         }
         for (_, camera) in &mut scene.cameras {
             camera.eye -= centre;

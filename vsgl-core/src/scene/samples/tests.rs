@@ -17,9 +17,11 @@ fn every_sample_has_a_light_a_camera_and_glossy_surfaces_on_both_ends() {
         assert!(facts.lights > 0 && facts.glossy_senders && facts.glossy_receivers);
         assert!(!facts.textures);
         for light in &scene.lights {
-            let Light::Spot(spot) = light;
+            let Light::Spot(spot) = light else {
+                panic!("{light:?}")
+            };
             assert!(spot.axis.is_normalized());
-            assert!(spot.inner < spot.outer && spot.outer <= SpotLight::OUTER_MAX);
+            assert!(spot.inner < spot.outer && spot.outer <= SpotLight::ONE_MAP_MAX);
         }
     }
 }
@@ -81,7 +83,9 @@ fn the_origin_is_the_centre_and_camera_and_lights_are_inside() {
         let inside = |p: glam::Vec3| p.cmpgt(low).all() && p.cmplt(high).all();
         assert!(inside(scene.cameras[0].1.eye), "{}", scene.name);
         for light in &scene.lights {
-            let Light::Spot(spot) = light;
+            let Light::Spot(spot) = light else {
+                panic!("{light:?}")
+            };
             assert!(inside(spot.position), "{}", scene.name);
         }
     }

@@ -49,16 +49,41 @@ fn cones_have_defaults_hard_edges_and_a_largest_angle() {
     let hard = r#"{"type":"spot","spot":{"innerConeAngle":0.5,"outerConeAngle":0.5}}"#;
     let (hard, _) = spot(lit(hard, ""));
     assert_eq!((hard.inner, hard.outer), (0.5, 0.5));
-    let wide = r#"{"type":"spot","spot":{"innerConeAngle":1.5,"outerConeAngle":1.5707963}}"#;
+    let wide = r#"{"type":"spot","spot":{"innerConeAngle":1.5,"outerConeAngle":1.5708}}"#;
     let (wide, warnings) = spot(lit(wide, ""));
+    assert_eq!((wide.inner, wide.outer), (1.5, SpotLight::OUTER_MAX));
+    assert!(warnings.is_empty());
+}
+
+#[test]
+fn points_and_suns_with_and_without_range() {
+    let node =
+        r#""translation":[0.5,3,0],"rotation":[-0.70710678,0,0,0.70710678],"scale":[2,2,2],"#;
+    let light = |text: &str| {
+        let scene = lit(text, node).load().unwrap();
+        assert!(scene.warnings.is_empty(), "{:?}", scene.warnings);
+        scene.lights[0]
+    };
+    let Light::Point(point) = light(r#"{"type":"point","intensity":3,"color":[1,0.5,0]}"#) else {
+        panic!("a point")
+    };
+    assert!(point.position.distance(Vec3::new(0.0, 2.5, 0.0)) < 1e-6);
     assert_eq!(
-        (wide.inner, wide.outer),
-        (SpotLight::OUTER_MAX, SpotLight::OUTER_MAX)
+        (point.intensity, point.range),
+        ([3.0, 1.5, 0.0], f32::INFINITY)
     );
-    assert_eq!(
-        warnings,
-        ["cones of lights are narrowed to 80 degrees from the axis"]
-    );
+    // The scale of the node has no say in the range.
+    let Light::Point(point) = light(r#"{"type":"point","range":7}"#) else {
+        panic!("a point")
+    };
+    assert_eq!((point.intensity, point.range), ([1.0; 3], 7.0));
+    let Light::Directional(sun) = light(r#"{"type":"directional","intensity":5,"range":7}"#) else {
+        panic!("a sun")
+    };
+    assert!(sun.axis.distance(Vec3::NEG_Y) < 1e-6);
+    assert_eq!(sun.irradiance, [5.0; 3]);
+    let (spot, _) = spot(lit(r#"{"type":"spot","spot":{},"range":0.5}"#, node));
+    assert_eq!(spot.range, 0.5);
 }
 
 #[test]
@@ -75,6 +100,10 @@ fn broken_lights_are_refused() {
     }
     refused_at(&format!("{here}.spot"), lit(r#"{"type":"spot"}"#, ""));
     refused_at(here, lit(r#"{"type":"spot","spot":{},"intensity":-1}"#, ""));
+    for range in ["0", "-3"] {
+        let light = format!(r#"{{"type":"point","range":{range}}}"#);
+        refused_at(here, lit(&light, ""));
+    }
     let missing = "nodes[1].extensions.KHR_lights_punctual.light";
     refused_at(missing, lit("", ""));
 }
@@ -82,11 +111,6 @@ fn broken_lights_are_refused() {
 #[test]
 fn other_lights_are_left_out_with_a_warning() {
     for (light, warning) in [
-        (r#"{"type":"point"}"#, "point lights are left out"),
-        (
-            r#"{"type":"directional"}"#,
-            "directional lights are left out",
-        ),
         (r#"{"type":"area"}"#, "lights of unknown type are left out"),
         (
             r#"{"type":"spot","spot":{},"intensity":0}"#,
