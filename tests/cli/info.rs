@@ -120,3 +120,65 @@ fn added_lights_and_cameras_are_where_they_were_put() {
     assert!((number(&document["camera"]["fov_degrees"]) - 40.0).abs() < 1e-4);
     assert!((number(&document["camera"]["eye"][2]) - 2.0).abs() < 1e-6);
 }
+
+#[test]
+fn the_contents_of_a_file_are_listed() {
+    let folder = Folder::new();
+    let file = crate::errors::TRIANGLE
+        .replacen(r#""scene": 0,"#, r#""extensionsUsed": ["EXT_nobody"],"#, 1)
+        .replacen(
+            r#""scenes": ["#,
+            r#""scenes": [{"name": "empty", "nodes": []}, "#,
+            1,
+        )
+        .replacen(
+            r#""meshes": "#,
+            r#""materials": [{"name": "chalk"}], "meshes": "#,
+            1,
+        )
+        .replacen(r#"{"POSITION": 0}"#, r#"{"POSITION": 0}, "material": 0"#, 1);
+    folder.write("a.gltf", &file);
+    let document = folder.run("info a.gltf --scene 1 --json").json();
+    assert_eq!(document["triangles"]["drawn"], 1);
+    assert_eq!(document["triangles"]["unique"], 1);
+    assert_eq!(document["bytes"]["files"], file.len() + 36);
+    assert_eq!(document["bytes"]["memory"], 3 * 24 + 16);
+    assert_eq!(document["extensions"]["ignored"][0], "EXT_nobody");
+    assert_eq!(document["scenes"][0]["name"], "empty");
+    assert_eq!(document["scenes"][1]["shown"], true);
+    assert_eq!(document["materials"][0]["name"], "chalk");
+    assert_eq!(document["materials"][0]["metallic"], 1.0);
+    assert!(
+        document["command"]
+            .as_str()
+            .is_some_and(|c| c.contains("--scene 1"))
+    );
+    let text = folder.run("info a.gltf --scene 1").ok();
+    for words in ["EXT_nobody", "empty", "chalk", "1 without a name, shown"] {
+        assert!(text.contains(words), "no {words} in\n{text}");
+    }
+    let empty = folder.run("info a.gltf --scene empty --json").json();
+    assert_eq!(empty["triangles"]["drawn"], 0);
+    folder.run("render a.gltf --scene empty -o a.png").failed(3);
+    let message = folder.run("info a.gltf --scene 2").failed(2);
+    assert!(message.contains("0 `empty`"), "{message}");
+}
+
+#[test]
+fn limits_are_changed_by_their_names() {
+    let folder = Folder::new();
+    folder.write("a.gltf", crate::errors::TRIANGLE);
+    let message = folder.run("info a.gltf --limit triangles=0").failed(3);
+    assert!(message.contains("raise the limit `triangles`"), "{message}");
+    let raised = folder.run("info a.gltf --limit triangles=0 --limit triangles=1 --json");
+    let command = raised.json()["command"].as_str().map(str::to_owned);
+    assert!(command.is_some_and(|c| c.contains("--limit triangles=1")));
+    let message = folder.run("info a.gltf --limit corners=1").failed(2);
+    assert!(message.contains("give one of file_bytes"), "{message}");
+    folder.run("info a.gltf --limit triangles").failed(2);
+    folder
+        .run("info sample:cornell --limit triangles=1")
+        .failed(2);
+    let help = folder.run("info --help").ok();
+    assert!(help.contains("texels=134217728"), "{help}");
+}

@@ -40,6 +40,8 @@ pub struct Job {
     pub seed: u64,
     /// What the user should know, a line each.
     pub warnings: Vec<String>,
+    /// Whether the scene's own lights shine; they are the first.
+    own_lights: bool,
     /// Arguments that choose the same scene, lights and camera again.
     scene_words: Vec<String>,
 }
@@ -67,7 +69,7 @@ impl Job {
         let settings = choose::settings(settings, defaults.lights)?;
         let size = view.size.unwrap_or(defaults.size);
         let name = scene.scene.clone().unwrap_or_else(|| DEFAULT_SCENE.into());
-        let read = read_scene(&name)?;
+        let read = read_scene(&name, scene)?;
         let mut warnings = read.warnings.clone();
         let lights = choose::lights(&read, scene)?;
         let (camera_name, camera) = choose::camera(&read, scene, size, &mut warnings)?;
@@ -86,6 +88,7 @@ impl Job {
             warnings.push("no light: the picture will be black; add one with --spot".into());
         }
         Ok(Self {
+            own_lights: !scene.only_added_lights,
             scene_words: repeat::scene_words(&name, scene),
             name,
             scene: read,
@@ -98,6 +101,17 @@ impl Job {
             seed: view.seed.unwrap_or(0),
             warnings,
         })
+    }
+}
+
+impl Job {
+    /// Name of a light in the scene's file; empty for those without, and for added ones.
+    pub fn light_name(&self, index: usize) -> &str {
+        let names = match self.own_lights {
+            true => &self.scene.source.lights[..],
+            false => &[],
+        };
+        names.get(index).map_or("", String::as_str)
     }
 }
 
@@ -135,10 +149,19 @@ fn check_maps(lights: usize, side: u32) -> Result<()> {
     )))
 }
 
-fn read_scene(name: &str) -> Result<Scene> {
-    let scene = match name.strip_prefix("sample:") {
-        Some(sample) => samples::by_name(sample)?,
-        None => gltf::load(Path::new(name))?,
+fn read_scene(name: &str, args: &SceneArgs) -> Result<Scene> {
+    let mut options = gltf::Options::default();
+    for (limit, value) in &args.limit {
+        options.limits.set(limit, value)?;
+    }
+    options.scene.clone_from(&args.part);
+    let Some(sample) = name.strip_prefix("sample:") else {
+        return Ok(gltf::load_with(Path::new(name), &options)?);
     };
-    Ok(scene)
+    if args.part.is_some() || !args.limit.is_empty() {
+        return Err(Failure::Usage(
+            "--scene and --limit are about files; leave them out with a sample".into(),
+        ));
+    }
+    Ok(samples::by_name(sample)?)
 }

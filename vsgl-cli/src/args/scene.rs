@@ -1,7 +1,9 @@
 //! Arguments that choose the scene, its lights, the camera and the size of the picture.
 
+use super::settings::key_value;
 use super::words::{LookAt, Point, Size, Spot, Sun, field_of_view};
 use clap::Args;
+use vsgl_core::scene::gltf::Limits;
 
 /// Scene, lights and camera.
 #[derive(Args, Clone, Debug, Default, PartialEq)]
@@ -10,6 +12,12 @@ pub struct SceneArgs {
     /// glTF 2.0 file (.gltf, .glb), or sample:NAME for a scene made in code
     #[arg(value_name = "SCENE")]
     pub scene: Option<String>,
+    /// Scene of a file that holds several, by name or by index from 0 [default: the one that the file names]
+    #[arg(long = "scene", id = "scene_of_file", value_name = "NAME|INDEX")]
+    pub part: Option<String>,
+    /// Accept more, or less, of something in the file than usual (repeatable); --help lists what
+    #[arg(long, value_name = "NAME=VALUE", value_parser = key_value, long_help = limits_help())]
+    pub limit: Vec<(String, String)>,
     /// Camera of the scene, by name or by index from 0 [default: the first]
     #[arg(long, value_name = "NAME|INDEX", conflicts_with = "look_at")]
     pub camera: Option<String>,
@@ -36,6 +44,18 @@ pub struct SceneArgs {
     /// Switch the scene's own lights off
     #[arg(long)]
     pub only_added_lights: bool,
+}
+
+/// What `--limit` can be given.
+fn limits_help() -> String {
+    let mut help = "Accept more, or less, of something in the file than usual (repeatable)\n\n\
+        A file that asks for more is refused. The usual limits keep the memory for a hostile file below a gigabyte:"
+        .to_owned();
+    let about = Limits::NAMES.iter().map(|(_, about)| about);
+    for ((name, value), about) in Limits::default().entries().into_iter().zip(about) {
+        help += &format!("\n  {name}={value}: {about}");
+    }
+    help
 }
 
 /// Size and samples.

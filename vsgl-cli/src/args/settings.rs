@@ -92,9 +92,13 @@ impl SettingsArgs {
     }
 }
 
-fn key_value(word: &str) -> Result<(String, String), String> {
+/// Reads `KEY=VALUE`.
+///
+/// # Errors
+/// What would be accepted.
+pub(super) fn key_value(word: &str) -> Result<(String, String), String> {
     let (key, value) = word
         .split_once('=')
-        .ok_or("give KEY=VALUE, such as lights=4096")?;
+        .ok_or("give a name and a value with = between them, such as lights=4096")?;
     Ok((key.trim().to_owned(), value.trim().to_owned()))
 }

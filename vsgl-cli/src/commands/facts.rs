@@ -23,7 +23,11 @@ pub(super) fn scene_text(job: &Job) -> String {
     out += &format!("  from {} to {} m\n", point(low), point(high));
     out += &format!("  {}\n", count(job.lights.len(), "light"));
     for (index, light) in job.lights.iter().take(LIST_MAX).enumerate() {
-        out += &format!("    {index} {}\n", light_text(job, light));
+        out += &format!(
+            "    {index} {}{}\n",
+            light_name(job, index),
+            light_text(job, light)
+        );
     }
     if job.lights.len() > LIST_MAX {
         out += &format!("    and {} more\n", job.lights.len() - LIST_MAX);
@@ -77,7 +81,11 @@ pub(super) fn settings_text(job: &Job) -> String {
 pub(super) fn json(job: &Job) -> Value {
     let scene = &job.scene;
     let [low, high] = bounds(job).map(|p| p.to_array());
-    let light = |light: &Light| light_json(job, light);
+    let light = |(index, light): (usize, &Light)| {
+        let mut light = light_json(job, light);
+        light["name"] = job.light_name(index).into();
+        light
+    };
     let camera = |(name, camera): &(String, Camera)| camera_json(job, name, camera);
     let reason =
         |r: &vsgl_core::plan::Reason| json!({"topic": r.topic, "runs": r.runs, "why": r.why});
@@ -93,13 +101,21 @@ pub(super) fn json(job: &Job) -> Value {
             "reflecting_senders": job.facts.reflecting_senders,
             "glossy_receivers": job.facts.glossy_receivers,
         },
-        "lights": job.lights.iter().map(light).collect::<Vec<_>>(),
+        "lights": job.lights.iter().enumerate().map(light).collect::<Vec<_>>(),
         "camera": camera_json(job, &job.camera, &job.view.camera),
         "cameras": scene.cameras.iter().map(camera).collect::<Vec<_>>(),
         "settings": settings_json(&job.settings),
         "plan": job.plan.reasons.iter().map(reason).collect::<Vec<_>>(),
         "warnings": job.warnings,
     })
+}
+
+/// The name of a light that has one, ready for what follows.
+fn light_name(job: &Job, index: usize) -> String {
+    match job.light_name(index) {
+        "" => String::new(),
+        name => format!("{name}: "),
+    }
 }
 
 /// Corners of the scene's box in world space.

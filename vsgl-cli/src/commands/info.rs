@@ -1,6 +1,6 @@
 //! `vsgl info`: what a scene holds and what would run; without a scene, what the program offers.
 
-use super::{SCHEMA_VERSION, facts};
+use super::{SCHEMA_VERSION, contents, facts};
 use crate::args::{InfoArgs, SceneArgs, SettingsArgs, ViewArgs};
 use crate::device;
 use crate::exit::{Failure, Result};
@@ -37,12 +37,14 @@ fn scene(args: &InfoArgs) -> Result<()> {
     let job = Job::new(&args.scene, &args.view, &args.settings)?;
     if args.json {
         let mut document = facts::json(&job);
+        contents::add(&mut document, &job);
         document["schema_version"] = SCHEMA_VERSION.into();
         document["command"] = command(&job).into();
         return text::print_json(&document);
     }
     let mut out = format!("{}\n\n", command(&job));
     out += &facts::scene_text(&job);
+    out += &contents::text(&job);
     out += &facts::cameras_text(&job);
     out += &facts::settings_text(&job);
     out += &facts::plan_text(&job);

@@ -1,6 +1,7 @@
 //! One file a command.
 
 mod compare;
+mod contents;
 mod dump;
 mod facts;
 mod info;

@@ -11,6 +11,12 @@ use vsgl_core::settings::Settings;
 /// Arguments that choose a scene, its lights and a camera.
 pub(super) fn scene_words(name: &str, args: &SceneArgs) -> Vec<String> {
     let mut words = vec![name.to_owned()];
+    if let Some(part) = &args.part {
+        words.extend(["--scene".into(), part.clone()]);
+    }
+    for (limit, value) in &args.limit {
+        words.extend(["--limit".into(), format!("{limit}={value}")]);
+    }
     if let Some(camera) = &args.camera {
         words.extend(["--camera".into(), camera.clone()]);
     }

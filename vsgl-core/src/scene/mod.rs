@@ -11,11 +11,13 @@ pub mod light;
 mod material;
 mod prepare;
 pub mod samples;
+mod source;
 
 pub use camera::Camera;
 pub use facts::SceneFacts;
 pub use light::{DirectionalLight, Light, PointLight, SpotLight};
 pub use material::{Filter, Material, Slot, Texture, TextureRef, Wrap};
+pub use source::{ImageSource, Source};
 
 use glam::{DVec3, Vec2, Vec3, Vec4};
 
@@ -38,12 +40,30 @@ pub struct Scene {
     pub cameras: Vec<(String, Camera)>,
     /// What was ignored while reading, a line each, for the user.
     pub warnings: Vec<String>,
+    /// What the file was, for reports.
+    pub source: Source,
 }
 
 impl Scene {
     /// Local position of a world position.
     pub fn local(&self, world: DVec3) -> Vec3 {
         (world - self.origin).as_vec3()
+    }
+
+    /// Bytes that vertices, triangles and texels take.
+    pub fn memory_bytes(&self) -> u64 {
+        fn bytes<T>(list: &[T]) -> u64 {
+            size_of_val(list) as u64
+        }
+        let mesh = &self.mesh;
+        let vertices = bytes(&mesh.positions)
+            + bytes(&mesh.normals)
+            + bytes(&mesh.texcoords)
+            + bytes(&mesh.texcoords_second)
+            + bytes(&mesh.tangents)
+            + bytes(&mesh.colors);
+        let texels: u64 = self.textures.iter().map(|t| bytes(&t.texels)).sum();
+        vertices + bytes(&mesh.triangles) + bytes(&mesh.material) + texels
     }
 
     /// Smallest box around all vertices, as (least, greatest) corner \[m\]; zero without triangles.

@@ -43,7 +43,7 @@ impl<'a, const N: usize> Vectors<'a, N> {
     }
 
     /// The same with integers as shares of their range, as colours and weights are, whatever the accessor says.
-    pub(super) fn as_shares(mut self) -> Self {
+    pub(super) fn into_shares(mut self) -> Self {
         self.normalized = true;
         self
     }

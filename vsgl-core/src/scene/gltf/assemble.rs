@@ -21,10 +21,14 @@ pub(super) struct Geometry {
     pub(super) mesh: Mesh,
     /// Centre of the bounds in the world.
     pub(super) origin: DVec3,
+    /// Half the diagonal of the bounds \[m\].
+    pub(super) radius: f64,
     /// Materials that triangles use.
     pub(super) materials: Vec<Material>,
     /// Images that these materials use, as indices of the file, in the order of the scene's textures.
     pub(super) images: Vec<usize>,
+    /// Triangles that were read, each mesh in each of its forms once.
+    pub(super) unique_triangles: u64,
 }
 
 /// Smallest half extent that is accepted \[m\], for the same reason as [`LARGEST`].
@@ -89,13 +93,21 @@ pub(super) fn geometry(
     let size = Size::of(&instances);
     check_triangles(size.triangles, limits, "scene")?;
     check_vertices(size.vertices, limits, "scene")?;
-    let origin = centre(&instances)?;
+    let (origin, radius) = bounds(&instances)?;
+    let sizes = forms
+        .read
+        .iter()
+        .flatten()
+        .map(|p| p.triangles.len() as u64);
+    let unique_triangles = sizes.sum();
     let (materials, images) = forms.reader.materials.finish();
     Ok(Geometry {
         mesh: join(&instances, origin, &size),
         origin,
+        radius,
         materials,
         images,
+        unique_triangles,
     })
 }
 
@@ -158,8 +170,8 @@ struct Instance<'a> {
     frames: Frames<'a>,
 }
 
-/// Centre of the bounds of all vertices.
-fn centre(instances: &[Instance<'_>]) -> Result<DVec3> {
+/// Centre and radius of the bounds of all vertices.
+fn bounds(instances: &[Instance<'_>]) -> Result<(DVec3, f64)> {
     let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     let frames = instances.iter().flat_map(|instance| {
         let frames = (0..instance.frames.len()).map(|i| instance.frames.frame(i));
@@ -179,7 +191,7 @@ fn centre(instances: &[Instance<'_>]) -> Result<DVec3> {
         }
     }
     if low.x > high.x {
-        return Ok(DVec3::ZERO);
+        return Ok((DVec3::ZERO, 0.0));
     }
     let half = (high - low) * 0.5;
     let size = half.max_element();
@@ -197,7 +209,7 @@ fn centre(instances: &[Instance<'_>]) -> Result<DVec3> {
             "scale it up",
         ));
     }
-    Ok(low + half)
+    Ok((low + half, half.length()))
 }
 
 /// What the joined mesh will hold.

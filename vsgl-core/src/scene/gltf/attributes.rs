@@ -53,10 +53,10 @@ impl<'a> Attributes<'a, '_> {
         let path = self.path(&semantic);
         if component_count(self.document, index, || path)? == Some(3) {
             let rgb = self.full(semantic, vertices)?;
-            return Ok(rgb.map(|rgb| Colors::Opaque(rgb.as_shares())));
+            return Ok(rgb.map(|rgb| Colors::Opaque(rgb.into_shares())));
         }
         let rgba = self.full(semantic, vertices)?;
-        Ok(rgba.map(|rgba| Colors::Alpha(rgba.as_shares())))
+        Ok(rgba.map(|rgba| Colors::Alpha(rgba.into_shares())))
     }
 
     /// JSON path of an attribute.
@@ -86,8 +86,8 @@ impl Colors<'_> {
             }
             Self::Alpha(rgba) => rgba.get(vertex),
         };
-        // This way round, what is no number becomes 0.
-        Vec4::from(color.map(|c| c.max(0.0).min(1.0)))
+        // What is no number becomes 0.
+        Vec4::from(color.map(|c| c.max(0.0).clamp(0.0, 1.0)))
     }
 }
 

@@ -1,20 +1,26 @@
 //! Cameras.
 
+use super::assemble::Geometry;
 use super::document::{Document, lookup};
 use super::fault::{Fault, Result};
-use super::nodes::Placed;
+use super::nodes::{LARGEST, Placed};
 use super::warnings::Warnings;
 use crate::scene::Camera;
 use glam::DVec3;
-use gltf::json::camera::{Perspective, Type};
+use gltf::json::camera::{Orthographic, Perspective, Type};
 use gltf::json::validation::Checked;
 
-/// Perspective cameras that the nodes hold, in the order of the file's cameras, with the name of the camera, else of
-/// its node, else its number in this list.
+/// How far behind an orthographic camera the eye of its stand-in is, in radii of the scene or half heights of the view,
+/// whichever is larger: lines of sight at the edge of the picture are then half a degree from parallel, and positions
+/// lose seven of 24 bits on the way.
+const AWAY: f64 = 128.0;
+
+/// Cameras that the nodes hold, in the order of the file's cameras, with the name of the camera, else of its node, else
+/// its number in this list.
 pub(super) fn collect(
     document: &Document,
     placed: &[Placed<'_>],
-    origin: DVec3,
+    geometry: &Geometry,
     warnings: &mut Warnings,
 ) -> Result<Vec<(String, Camera)>> {
     let mut found = Vec::new();
@@ -24,14 +30,21 @@ pub(super) fn collect(
         };
         let at = || format!("nodes[{}].camera", place.index);
         let source = lookup(&document.root.cameras, "cameras", index, at)?;
-        let perspective = match (&source.type_, &source.perspective) {
-            (Checked::Valid(Type::Perspective), Some(perspective)) => perspective,
+        let (tangent, behind) = match (&source.type_, &source.perspective, &source.orthographic) {
+            (Checked::Valid(Type::Perspective), Some(lens), _) => (half_field(lens, index)?, 0.0),
+            (Checked::Valid(Type::Orthographic), _, Some(view)) => {
+                warnings
+                    .add("orthographic cameras are replaced by perspective ones far behind them");
+                let half = half_height(view, index)?;
+                let away = AWAY * half.max(geometry.radius);
+                ((half / away) as f32, away)
+            }
             _ => {
-                warnings.add("cameras that are not perspective are left out");
+                warnings.add("cameras of unknown type are left out");
                 continue;
             }
         };
-        let Some(camera) = camera(perspective, index, place, origin)? else {
+        let Some(camera) = camera(tangent, behind, place, geometry.origin) else {
             warnings.add("cameras too far off, or scaled to nothing, are left out");
             continue;
         };
@@ -45,20 +58,35 @@ pub(super) fn collect(
     Ok(found.into_iter().enumerate().map(named).collect())
 }
 
-fn camera(
-    perspective: &Perspective,
-    index: usize,
-    place: &Placed<'_>,
-    origin: DVec3,
-) -> Result<Option<Camera>> {
-    let fov = perspective.yfov;
-    if !(fov > 0.0 && fov < std::f32::consts::PI) {
-        return Err(Fault::new(
-            format!("cameras[{index}].perspective.yfov"),
-            format!("{fov} is no field of view"),
-            "an angle between 0 and pi is expected",
-        ));
+/// Tangent of half the vertical field of view.
+fn half_field(lens: &Perspective, index: usize) -> Result<f32> {
+    let fov = lens.yfov;
+    if fov > 0.0 && fov < std::f32::consts::PI {
+        return Ok((0.5 * fov).tan());
     }
+    Err(Fault::new(
+        format!("cameras[{index}].perspective.yfov"),
+        format!("{fov} is no field of view"),
+        "an angle between 0 and pi is expected",
+    ))
+}
+
+/// Half the height that an orthographic camera sees \[m\]. Scales of nodes have no say in it.
+fn half_height(view: &Orthographic, index: usize) -> Result<f64> {
+    // A negative one would turn the picture over, which nobody means.
+    let half = f64::from(view.ymag.abs());
+    if half > 1e-30 && half < LARGEST {
+        return Ok(half);
+    }
+    Err(Fault::new(
+        format!("cameras[{index}].orthographic.ymag"),
+        format!("{} is no height of a view", view.ymag),
+        "a length above 0 is expected",
+    ))
+}
+
+/// A camera where a node is, `behind` it by so much.
+fn camera(tan_half_fov: f32, behind: f64, place: &Placed<'_>, origin: DVec3) -> Option<Camera> {
     let forward = place
         .world
         .transform_vector3(DVec3::NEG_Z)
@@ -66,14 +94,15 @@ fn camera(
     let right = forward
         .cross(place.world.transform_vector3(DVec3::Y))
         .normalize_or_zero();
-    let Some(eye) = place.position(origin).filter(|_| right != DVec3::ZERO) else {
-        return Ok(None);
-    };
-    Ok(Some(Camera {
-        eye,
+    let eye = place.world.w_axis.truncate() - origin - forward * behind;
+    if right == DVec3::ZERO || eye.abs().max_element() > LARGEST {
+        return None;
+    }
+    Some(Camera {
+        eye: eye.as_vec3(),
         forward: forward.as_vec3().normalize(),
         right: right.as_vec3().normalize(),
         up: right.cross(forward).as_vec3().normalize(),
-        tan_half_fov: (0.5 * fov).tan(),
-    }))
+        tan_half_fov,
+    })
 }

@@ -3,11 +3,12 @@
 use super::fault::{Fault, Result, printable, quoted};
 use super::limits::Limits;
 use super::warnings::Warnings;
-use gltf::json::{Root, Value, deserialize};
+use gltf::json::{Root, Scene, Value, deserialize};
 
 /// Extensions that are read, or that ask nothing of a reader.
 const SUPPORTED: &[&str] = &[
     super::instancing::NAME,
+    "EXT_texture_webp",
     "KHR_lights_punctual",
     "KHR_materials_ior",
     "KHR_materials_specular",
@@ -32,16 +33,103 @@ impl Document {
         drop(value);
         let root: Root = deserialize::from_slice(json).map_err(|e| malformed(&e))?;
         check_required(&root.extensions_required)?;
-        for name in &root.extensions_used {
-            if !SUPPORTED.contains(&name.as_str()) {
-                warnings.add(format!("extension {} is ignored", quoted(name)));
-            }
+        for name in ignored(&root) {
+            warnings.add(format!("extension {} is ignored", quoted(name)));
         }
         if !root.animations.is_empty() {
             warnings.add("animations are ignored: the scene is shown at rest");
         }
         Ok(Self { root, nodes })
     }
+
+    /// Index of the scene that is to be shown: the one asked for, else the default of the file, else the first; none in a
+    /// file without scenes.
+    pub(super) fn scene(
+        &self,
+        wanted: Option<&str>,
+        warnings: &mut Warnings,
+    ) -> Result<Option<usize>> {
+        let Root {
+            scene,
+            scenes,
+            nodes,
+            ..
+        } = &self.root;
+        if let Some(wanted) = wanted {
+            return self.scene_called(wanted).map(Some);
+        }
+        let index = match scene {
+            Some(scene) => scene.value(),
+            None if !scenes.is_empty() => 0,
+            None => {
+                if !nodes.is_empty() {
+                    warnings.add("the file has no scene: all nodes are shown");
+                }
+                return Ok(None);
+            }
+        };
+        lookup(scenes, "scenes", index, || "scene".into())?;
+        if scenes.len() > 1 {
+            let count = scenes.len();
+            warnings.add(format!(
+                "scene {index} of {count} is shown; another can be chosen"
+            ));
+        }
+        Ok(Some(index))
+    }
+
+    /// By name, and if none has it by index.
+    fn scene_called(&self, wanted: &str) -> Result<usize> {
+        let scenes = &self.root.scenes;
+        let named = |scene: &Scene| scene.name.as_deref() == Some(wanted);
+        let by_index = || wanted.parse().ok().filter(|&index| index < scenes.len());
+        scenes
+            .iter()
+            .position(named)
+            .or_else(by_index)
+            .ok_or_else(|| {
+                let name = |(i, scene): (usize, &Scene)| match &scene.name {
+                    Some(name) => format!("{i} {}", quoted(name)),
+                    None => i.to_string(),
+                };
+                let names: Vec<_> = scenes.iter().enumerate().take(LISTED).map(name).collect();
+                let remedy = match names.is_empty() {
+                    true => "it has none; leave the choice out".to_owned(),
+                    false if scenes.len() > LISTED => format!("it has {}, …", names.join(", ")),
+                    false => format!("it has {}", names.join(", ")),
+                };
+                Fault::setting(
+                    "scene",
+                    format!("the file has no scene {}", quoted(wanted)),
+                    remedy,
+                )
+            })
+    }
+
+    /// Names of the scenes; empty for those without.
+    pub(super) fn scene_names(&self) -> Vec<String> {
+        let scenes = self.root.scenes.iter();
+        let name = |s: &Scene| s.name.as_deref().map(printable).unwrap_or_default();
+        scenes.map(name).collect()
+    }
+
+    /// Extensions that the file uses, and those of them that are not read.
+    pub(super) fn extensions(&self) -> (Vec<String>, Vec<String>) {
+        let used = self.root.extensions_used.iter();
+        let ignored = ignored(&self.root);
+        (
+            used.map(|name| printable(name)).collect(),
+            ignored.map(|name| printable(name)).collect(),
+        )
+    }
+}
+
+/// So many names at most are listed in a message.
+const LISTED: usize = 12;
+
+fn ignored(root: &Root) -> impl Iterator<Item = &String> {
+    let used = root.extensions_used.iter();
+    used.filter(|name| !SUPPORTED.contains(&name.as_str()))
 }
 
 /// Element `index` of a list of the file. `list` is the list's name, `place` where the index stands.

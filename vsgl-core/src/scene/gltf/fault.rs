@@ -12,6 +12,8 @@ pub(super) struct Fault(Box<Parts>);
 
 #[derive(Debug)]
 struct Parts {
+    /// What was asked of the file is wrong, not the file.
+    asked: bool,
     /// The file, where it is not the scene's own.
     file: Option<String>,
     place: String,
@@ -26,11 +28,19 @@ impl Fault {
         remedy: impl Into<String>,
     ) -> Self {
         Self(Box::new(Parts {
+            asked: false,
             file: None,
             place: place.into(),
             problem: problem.into(),
             remedy: remedy.into(),
         }))
+    }
+
+    /// What was asked of a file that it does not have; `name` is the option's.
+    pub(super) fn setting(name: &str, problem: String, remedy: String) -> Self {
+        let mut fault = Self::new(name, problem, remedy);
+        fault.0.asked = true;
+        fault
     }
 
     /// The same about another file than the scene's own.
@@ -42,11 +52,15 @@ impl Fault {
     /// For the user, who named the scene's file `path`.
     pub(super) fn into_error(self, path: &Path) -> Error {
         let Parts {
+            asked,
             file,
             place,
             problem,
             remedy,
         } = *self.0;
+        if asked {
+            return Error::setting(place, problem, remedy);
+        }
         Error::Scene {
             file: file.unwrap_or_else(|| path.display().to_string()),
             place,

@@ -96,6 +96,11 @@ impl Files {
         self.read(&real).map_err(|fault| fault.in_file(&path))
     }
 
+    /// Bytes of all files and data that were read so far.
+    pub(super) fn bytes_read(&self) -> u64 {
+        self.budget - self.left.get()
+    }
+
     fn charge(&self, bytes: usize) -> Result<()> {
         let left = self.left.get().checked_sub(bytes as u64);
         self.left.set(left.ok_or_else(|| self.too_large())?);

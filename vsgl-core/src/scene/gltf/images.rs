@@ -5,7 +5,8 @@ use super::document::Document;
 use super::fault::{Fault, Result, printable, quoted};
 use super::files::Files;
 use super::limits::Limits;
-use crate::scene::Texture;
+use super::webp;
+use crate::scene::{ImageSource, Texture};
 use image::{ImageDecoder, ImageFormat, ImageReader};
 use std::borrow::Cow;
 use std::io::Cursor;
@@ -28,14 +29,14 @@ struct Encoded<'a> {
     texels: u64,
 }
 
-/// Decodes the images with these indices, in this order, on as many threads as there are cores.
+/// Decodes the images with these indices, in this order, and says what they were, on as many threads as there are cores.
 pub(super) fn decode(
     document: &Document,
     buffers: &Buffers<'_>,
     files: &Files,
     indices: &[usize],
     limits: &Limits,
-) -> Result<Vec<Texture>> {
+) -> Result<(Vec<Texture>, Vec<ImageSource>)> {
     let mut left = limits.texels;
     let mut images = Vec::with_capacity(indices.len());
     for &index in indices {
@@ -78,7 +79,9 @@ pub(super) fn decode(
     });
     // The order of the list, whichever thread was first; so is the error that is told.
     textures.sort_by_key(|&(i, _)| i);
-    textures.into_iter().map(|(_, texture)| texture).collect()
+    let textures: Result<_> = textures.into_iter().map(|(_, texture)| texture).collect();
+    let sources = images.iter().map(|image| image.source(document)).collect();
+    Ok((textures?, sources))
 }
 
 /// The bytes of an image, with format and size from its header.
@@ -108,13 +111,18 @@ fn encoded<'a>(
         Fault::new(
             &place,
             format!(
-                "{} is neither PNG nor JPEG",
+                "{} is neither PNG nor JPEG nor WebP",
                 name.map_or("it".into(), quoted)
             ),
-            "convert it to PNG or JPEG",
+            "convert it to one of these",
         )
     })?;
+    let inner = match format {
+        ImageFormat::WebP => webp::texels(&bytes).map_err(|why| undecodable(index, why))?,
+        _ => 0,
+    };
     let texels = texels(&bytes, format).map_err(|e| undecodable(index, &e.to_string()))?;
+    let texels = texels.max(inner);
     if format == ImageFormat::Jpeg
         && bytes.windows(2).filter(|w| w == b"\xff\xda").count() > SCANS_MAX
     {
@@ -143,6 +151,19 @@ fn texels(bytes: &[u8], format: ImageFormat) -> image::ImageResult<u64> {
 }
 
 impl Encoded<'_> {
+    fn source(&self, document: &Document) -> ImageSource {
+        let image = &document.root.images[self.index];
+        let address = image.uri.as_ref().filter(|uri| !uri.starts_with("data:"));
+        let name = image.name.as_ref().filter(|name| !name.is_empty());
+        ImageSource {
+            name: name
+                .or(address)
+                .map_or(self.index.to_string(), |n| printable(n)),
+            format: name_of(self.format),
+            bytes: self.bytes.len() as u64,
+        }
+    }
+
     fn decode(&self) -> Result<Texture> {
         let broken = |e: image::ImageError| undecodable(self.index, &e.to_string());
         let mut reader = ImageReader::with_format(Cursor::new(&self.bytes[..]), self.format);
@@ -170,12 +191,22 @@ fn memory(bytes: u64) -> image::Limits {
     limits
 }
 
+fn name_of(format: ImageFormat) -> &'static str {
+    match format {
+        ImageFormat::Png => "PNG",
+        ImageFormat::Jpeg => "JPEG",
+        _ => "WebP",
+    }
+}
+
 /// By the first bytes: the type that files name is often wrong.
 fn format(bytes: &[u8]) -> Option<ImageFormat> {
     if bytes.starts_with(b"\x89PNG\r\n\x1a\n") {
         Some(ImageFormat::Png)
     } else if bytes.starts_with(b"\xff\xd8\xff") {
         Some(ImageFormat::Jpeg)
+    } else if bytes.starts_with(b"RIFF") && bytes.get(8..12) == Some(b"WEBP") {
+        Some(ImageFormat::WebP)
     } else {
         None
     }
@@ -185,6 +216,6 @@ fn undecodable(index: usize, why: &str) -> Fault {
     Fault::new(
         format!("images[{index}]"),
         format!("cannot be decoded: {}", printable(why)),
-        "save it again as PNG or JPEG",
+        "save it again as PNG, JPEG or WebP",
     )
 }

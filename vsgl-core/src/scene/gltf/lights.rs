@@ -1,7 +1,7 @@
 //! Lights of `KHR_lights_punctual`.
 
 use super::document::{Document, lookup};
-use super::fault::{Fault, Result};
+use super::fault::{Fault, Result, printable};
 use super::nodes::Placed;
 use super::warnings::Warnings;
 use crate::scene::{DirectionalLight, Light, PointLight, SpotLight};
@@ -10,7 +10,7 @@ use gltf::json::extensions::scene::khr_lights_punctual::{self, Type};
 use gltf::json::validation::Checked;
 use std::f32::consts::FRAC_PI_2;
 
-/// Lights that the nodes hold.
+/// Lights that the nodes hold, with their names, else those of their nodes.
 ///
 /// Intensities in candela are taken for \[W/sr\] as they stand, those in lux for \[W/m²\].
 pub(super) fn collect(
@@ -18,11 +18,11 @@ pub(super) fn collect(
     placed: &[Placed<'_>],
     origin: DVec3,
     warnings: &mut Warnings,
-) -> Result<Vec<Light>> {
+) -> Result<(Vec<Light>, Vec<String>)> {
     let extensions = document.root.extensions.as_ref();
     let list = extensions.and_then(|e| e.khr_lights_punctual.as_ref());
     let list = list.map_or(&[][..], |l| &l.lights);
-    let mut lights = Vec::new();
+    let (mut lights, mut names) = (Vec::new(), Vec::new());
     for place in placed {
         let extensions = place.node.extensions.as_ref();
         let Some(reference) = extensions.and_then(|e| e.khr_lights_punctual.as_ref()) else {
@@ -36,9 +36,13 @@ pub(super) fn collect(
         };
         let index = reference.light.value();
         let light = lookup(list, "lights", index, at)?;
-        lights.extend(read(light, index, place, origin, warnings)?);
+        if let Some(read) = read(light, index, place, origin, warnings)? {
+            let name = light.name.as_ref().or(place.node.name.as_ref());
+            names.push(name.map_or(String::new(), |n| printable(n)));
+            lights.push(read);
+        }
     }
-    Ok(lights)
+    Ok((lights, names))
 }
 
 fn read(

@@ -32,6 +32,7 @@ mod limits;
 mod materials;
 mod morph;
 mod nodes;
+mod options;
 mod primitive;
 mod sharing;
 mod skins;
@@ -40,11 +41,12 @@ mod textures;
 mod topology;
 mod uri;
 mod warnings;
+mod webp;
 
 #[cfg(test)]
 mod tests;
 
-use super::Scene;
+use super::{Scene, Source};
 use crate::error::Result;
 use buffers::Buffers;
 use container::Container;
@@ -54,51 +56,70 @@ use std::path::Path;
 use warnings::Warnings;
 
 pub use limits::Limits;
+pub use options::Options;
 
 /// Reads a `.gltf` or `.glb` file with the buffers and images that it refers to.
 ///
-/// Read are triangles with normals, colours and texture coordinates, moved by morph targets at their default weights
-/// and by skins at rest, copied by nodes and by `EXT_mesh_gpu_instancing`; metallic-roughness materials with their textures (PNG and
-/// JPEG), `KHR_materials_specular` and `KHR_materials_ior` (factors), `KHR_texture_transform`,
-/// `KHR_mesh_quantization`, `KHR_lights_punctual`, and perspective cameras. What else a file holds is left
-/// out with a line in [`Scene::warnings`]; if the file *requires* it, it is refused.
+/// Read are triangles with normals, colours, tangents and two sets of texture coordinates, moved by morph targets at their
+/// default weights and by skins at rest, copied by nodes and by `EXT_mesh_gpu_instancing`; metallic-roughness materials
+/// with their textures (PNG and JPEG), `KHR_materials_specular`, `KHR_materials_ior`, `KHR_texture_transform`,
+/// `KHR_mesh_quantization`, `KHR_lights_punctual`, and cameras. What else a file holds is left out with a line in
+/// [`Scene::warnings`]; if the file *requires* it, it is refused.
+///
+/// Orthographic cameras become perspective ones of the same view from far behind, with a warning: what lies behind the
+/// camera shows, and parallels meet by half a degree.
 ///
 /// Node transforms are composed in f64. A scene without triangles is no error here.
 ///
 /// # Errors
 /// [`Error::Scene`](crate::Error::Scene) with file, place and remedy. The default [`Limits`] apply.
 pub fn load(path: &Path) -> Result<Scene> {
-    load_with(path, &Limits::default())
+    load_with(path, &Options::default())
 }
 
-/// As [`load`], within other limits.
+/// As [`load`], with other limits, or another scene of the file.
 ///
 /// # Errors
-/// As [`load`].
-pub fn load_with(path: &Path, limits: &Limits) -> Result<Scene> {
-    read(path, limits).map_err(|fault| fault.into_error(path))
+/// As [`load`]; [`Error::Setting`](crate::Error::Setting) if the file has not the scene that is asked for.
+pub fn load_with(path: &Path, options: &Options) -> Result<Scene> {
+    read(path, options).map_err(|fault| fault.into_error(path))
 }
 
-fn read(path: &Path, limits: &Limits) -> fault::Result<Scene> {
+fn read(path: &Path, options: &Options) -> fault::Result<Scene> {
+    let limits = &options.limits;
     let files = Files::beside(path, limits.file_bytes)?;
     let mut warnings = Warnings::default();
     let Container { json, bin } = container::read(&files, path)?;
     let document = Document::parse(&json, limits, &mut warnings)?;
     drop(json);
-    let tree = nodes::walk(&document, &mut warnings)?;
+    let scene = document.scene(options.scene.as_deref(), &mut warnings)?;
+    let tree = nodes::walk(&document, scene)?;
     let placed = &tree.placed;
     let buffers = Buffers::new(&document, &files, bin);
     let geometry = assemble::geometry(&document, &buffers, &tree, limits, &mut warnings)?;
-    let textures = images::decode(&document, &buffers, &files, &geometry.images, limits)?;
+    let (textures, images) = images::decode(&document, &buffers, &files, &geometry.images, limits)?;
     let origin = geometry.origin;
+    let (lights, light_names) = lights::collect(&document, placed, origin, &mut warnings)?;
+    let cameras = cameras::collect(&document, placed, &geometry, &mut warnings)?;
+    let (extensions_used, extensions_ignored) = document.extensions();
     Ok(Scene {
         name: container::name(path),
         origin,
         mesh: geometry.mesh,
         materials: geometry.materials,
         textures,
-        lights: lights::collect(&document, placed, origin, &mut warnings)?,
-        cameras: cameras::collect(&document, placed, origin, &mut warnings)?,
+        lights,
+        cameras,
         warnings: warnings.into_lines(),
+        source: Source {
+            bytes: files.bytes_read(),
+            scenes: document.scene_names(),
+            scene,
+            extensions_used,
+            extensions_ignored,
+            unique_triangles: geometry.unique_triangles,
+            lights: light_names,
+            images,
+        },
     })
 }

@@ -2,7 +2,6 @@
 
 use super::document::{Document, lookup};
 use super::fault::{Fault, Result};
-use super::warnings::Warnings;
 use glam::{DMat4, DQuat, DVec3, DVec4, Vec3};
 use gltf::json::{Node, Value};
 
@@ -33,8 +32,8 @@ pub(super) struct Tree<'a> {
     pub(super) worlds: Vec<Option<DMat4>>,
 }
 
-/// Goes from the scene's roots to all its nodes.
-pub(super) fn walk<'a>(document: &'a Document, warnings: &mut Warnings) -> Result<Tree<'a>> {
+/// Goes from the roots of a scene, which exists, to all its nodes; without one from every node that has no parent.
+pub(super) fn walk(document: &Document, scene: Option<usize>) -> Result<Tree<'_>> {
     let root = &document.root;
     let mut worlds = vec![
         None;
@@ -48,7 +47,7 @@ pub(super) fn walk<'a>(document: &'a Document, warnings: &mut Warnings) -> Resul
     let mut placed = Vec::new();
     // A stack of our own: depth is the file's to choose.
     let mut waiting = Vec::new();
-    for (index, place) in roots(document, warnings)? {
+    for (index, place) in roots(document, scene) {
         seen.enter(index, || place.clone())?;
         waiting.push((index, DMat4::IDENTITY));
     }
@@ -95,29 +94,15 @@ impl Seen {
     }
 }
 
-/// Where to begin, with its place in the JSON: the default scene, else the first, else every node without a parent.
-fn roots(document: &Document, warnings: &mut Warnings) -> Result<Vec<(usize, String)>> {
+/// Where to begin, with its place in the JSON: a scene, which exists, or every node without a parent.
+fn roots(document: &Document, scene: Option<usize>) -> Vec<(usize, String)> {
     let root = &document.root;
-    let index = match root.scene {
-        Some(scene) => scene.value(),
-        None if !root.scenes.is_empty() => 0,
-        None => {
-            if !root.nodes.is_empty() {
-                warnings.add("the file has no scene: all nodes are shown");
-            }
-            return Ok(parentless(&root.nodes));
-        }
+    let Some(index) = scene else {
+        return parentless(&root.nodes);
     };
-    let scene = lookup(&root.scenes, "scenes", index, || "scene".into())?;
-    if root.scenes.len() > 1 {
-        warnings.add(format!(
-            "scene {index} of {} is shown; the others are ignored",
-            root.scenes.len()
-        ));
-    }
     let place = format!("scenes[{index}].nodes");
-    let nodes = scene.nodes.iter();
-    Ok(nodes.map(|node| (node.value(), place.clone())).collect())
+    let nodes = root.scenes[index].nodes.iter();
+    nodes.map(|node| (node.value(), place.clone())).collect()
 }
 
 fn parentless(nodes: &[Node]) -> Vec<(usize, String)> {

@@ -36,7 +36,7 @@ impl Influences {
             let (Some(joints), Some(weights)) = (joints, weights) else {
                 break;
             };
-            sets.push((joints, weights.as_shares()));
+            sets.push((joints, weights.into_shares()));
         }
         if sets.is_empty() {
             return Ok(None);

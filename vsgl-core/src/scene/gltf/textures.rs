@@ -109,12 +109,10 @@ impl<'a> Textures<'a> {
         let texture = lookup(&root.textures, "textures", index, || {
             format!("{place}.index")
         })?;
-        let source = texture.source.value();
-        // The parser's sign for "no source".
-        if source == u32::MAX as usize {
-            warnings.add("textures without a PNG or JPEG image are left out");
+        let Some(source) = image(texture) else {
+            warnings.add("textures without a PNG, JPEG or WebP image are left out");
             return Ok(None);
-        }
+        };
         lookup(&root.images, "images", source, || {
             format!("textures[{index}].source")
         })?;
@@ -145,6 +143,21 @@ impl<'a> Textures<'a> {
             transform: transform(&used.transform, place)?,
         }))
     }
+}
+
+/// Index of the image of a texture: its own, else that of `EXT_texture_webp`.
+fn image(texture: &json::Texture) -> Option<usize> {
+    let own = texture.source.value();
+    // The parser's sign for "no source".
+    if own != u32::MAX as usize {
+        return Some(own);
+    }
+    let extension = texture
+        .extensions
+        .as_ref()?
+        .others
+        .get("EXT_texture_webp")?;
+    Some(extension["source"].as_u64()? as usize)
 }
 
 fn wrap(mode: Checked<WrappingMode>) -> Wrap {

@@ -6,11 +6,15 @@ use std::io::Cursor;
 
 /// Two texels, red and half-transparent green.
 fn png() -> Vec<u8> {
+    image(ImageFormat::Png)
+}
+
+fn image(format: ImageFormat) -> Vec<u8> {
     let mut image = RgbaImage::new(2, 1);
     image.put_pixel(0, 0, Rgba([255, 0, 0, 255]));
     image.put_pixel(1, 0, Rgba([0, 255, 0, 128]));
     let mut bytes = Cursor::new(Vec::new());
-    image.write_to(&mut bytes, ImageFormat::Png).unwrap();
+    image.write_to(&mut bytes, format).unwrap();
     bytes.into_inner()
 }
 
@@ -193,14 +197,14 @@ fn textures_of_other_formats_are_left_out_with_a_warning() {
     let scene = textured(BASE)
         .set(
             "textures",
-            r#"[{"extensions":{"EXT_texture_webp":{"source":0}}}]"#,
+            r#"[{"extensions":{"KHR_texture_basisu":{"source":0}}}]"#,
         )
         .load()
         .unwrap();
     assert!(scene.textures.is_empty() && scene.mesh.texcoords.is_empty());
     assert_eq!(
         scene.warnings,
-        ["textures without a PNG or JPEG image are left out"]
+        ["textures without a PNG, JPEG or WebP image are left out"]
     );
 }
 
@@ -245,4 +249,62 @@ fn crc32(bytes: &[u8]) -> u32 {
     !bytes.iter().fold(!0u32, |crc, &byte| {
         (0..8).fold(crc ^ u32::from(byte), |crc, _| step(crc))
     })
+}
+
+#[test]
+fn webp_as_it_is_and_by_its_extension() {
+    let extension = r#"[{"extensions":{"EXT_texture_webp":{"source":1}}}]"#;
+    for textures in [r#"[{"source":0}]"#, extension] {
+        let scene = textured(BASE)
+            .set("textures", textures)
+            .set("images", r#"[{"uri":"a.webp"},{"uri":"a.webp"}]"#)
+            .set("extensionsRequired", r#"["EXT_texture_webp"]"#)
+            .beside("a.webp", &image(ImageFormat::WebP))
+            .load()
+            .unwrap();
+        let texture = &scene.textures[0];
+        assert_eq!((texture.width, texture.height), (2, 1));
+        assert_eq!(texture.texels, [[255, 0, 0, 255], [0, 255, 0, 128]]);
+        assert_eq!(scene.source.images[0].format, "WebP");
+        assert_eq!(scene.source.images[0].name, "a.webp");
+    }
+    // Where both are there, the plain one is as good.
+    let both = r#"[{"source":0,"extensions":{"EXT_texture_webp":{"source":9}}}]"#;
+    let file = textured(BASE).set("textures", both);
+    assert!(file.beside("a.png", &png()).load().is_ok());
+    let missing = r#"[{"extensions":{"EXT_texture_webp":{"source":9}}}]"#;
+    refused_at(
+        "textures[0].source",
+        textured(BASE).set("textures", missing),
+    );
+}
+
+#[test]
+fn broken_webp_is_refused() {
+    let whole = image(ImageFormat::WebP);
+    let mut refusals = 0;
+    for length in 12..whole.len() {
+        // The last bytes may hold nothing.
+        match textured(BASE).beside("a.png", &whole[..length]).load() {
+            Ok(scene) => assert_eq!(
+                scene.textures[0].texels,
+                [[255, 0, 0, 255], [0, 255, 0, 128]]
+            ),
+            refusal => {
+                assert_eq!(refused(refusal).0, "images[0]");
+                refusals += 1;
+            }
+        }
+    }
+    assert!(refusals > 20, "{refusals} of {}", whole.len());
+    // The header promises 16384 texels a side.
+    let mut large = whole.clone();
+    let size = large.windows(4).position(|w| w == b"VP8L").unwrap() + 9;
+    large[size..size + 4].copy_from_slice(&[0xff, 0xff, 0xff, 0x0f]);
+    let limits = Limits {
+        texels: 1 << 20,
+        ..Limits::default()
+    };
+    let (_, message) = refused(textured(BASE).beside("a.png", &large).load_within(&limits));
+    assert!(message.contains("texels"), "{message}");
 }

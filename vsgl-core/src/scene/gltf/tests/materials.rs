@@ -136,7 +136,7 @@ fn what_is_ignored_is_said_once() {
             "alpha blending is ignored: drawn opaque",
             "normal maps are ignored",
             "emission is ignored: surfaces do not shine",
-            "textures without a PNG or JPEG image are left out",
+            "textures without a PNG, JPEG or WebP image are left out",
             "vertex colours are ignored",
         ]
     );

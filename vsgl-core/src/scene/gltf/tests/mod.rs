@@ -8,7 +8,7 @@ mod resources;
 mod shapes;
 mod things;
 
-use super::{Limits, load, load_with};
+use super::{Limits, Options, load, load_with};
 use crate::scene::Scene;
 use crate::{Error, Result};
 use std::collections::BTreeMap;
@@ -118,10 +118,14 @@ impl File {
     }
 
     fn load_within(self, limits: &Limits) -> Result<Scene> {
+        self.load_as(&Options::within(limits))
+    }
+
+    fn load_as(self, options: &Options) -> Result<Scene> {
         let text = self.text();
         let bin = self.bin.clone();
         let file = self.beside("t.bin", &bin).beside("t.gltf", text.as_bytes());
-        load_with(&file.path("t.gltf"), limits)
+        load_with(&file.path("t.gltf"), options)
     }
 
     /// As a .glb file with the binary data inside.

@@ -153,19 +153,14 @@ fn cameras_have_names_and_directions() {
 
 #[test]
 fn cameras_that_cannot_be_used() {
-    let orthographic =
-        r#"[{"type":"orthographic","orthographic":{"xmag":1,"ymag":1,"zfar":2,"znear":1}}]"#;
     let nodes = r#"[{"mesh":0,"camera":0}]"#;
     let scene = File::triangle()
-        .set("cameras", orthographic)
+        .set("cameras", r#"[{"type":"fisheye"}]"#)
         .set("nodes", nodes)
         .load()
         .unwrap();
     assert!(scene.cameras.is_empty());
-    assert_eq!(
-        scene.warnings,
-        ["cameras that are not perspective are left out"]
-    );
+    assert_eq!(scene.warnings, ["cameras of unknown type are left out"]);
     for fov in ["0", "-1", "3.2", "1e99"] {
         let camera =
             format!(r#"[{{"type":"perspective","perspective":{{"yfov":{fov},"znear":1}}}}]"#);
@@ -219,4 +214,112 @@ fn messages_hold_no_control_characters() {
     let file = File::triangle().set("extensionsRequired", r#"["\u001b[31mred\n"]"#);
     let (_, message) = refused(file.load());
     assert!(!message.contains(char::is_control), "{message:?}");
+}
+
+#[test]
+fn orthographic_cameras_are_far_behind() {
+    let view = |ymag: &str| {
+        let cameras = format!(
+            r#"[{{"type":"orthographic","orthographic":{{"xmag":1,"ymag":{ymag},"zfar":2,"znear":1}}}}]"#
+        );
+        let nodes = r#"[{"mesh":0},{"camera":0,"translation":[0.5,0.5,1],"scale":[3,3,3]}]"#;
+        File::triangle()
+            .set("cameras", &cameras)
+            .set("nodes", nodes)
+            .set("scenes", r#"[{"nodes":[0,1]}]"#)
+    };
+    for ymag in [2.0f32, 0.001] {
+        let scene = view(&ymag.to_string()).load().unwrap();
+        assert_eq!(
+            scene.warnings,
+            ["orthographic cameras are replaced by perspective ones far behind them"]
+        );
+        let camera = scene.cameras[0].1;
+        assert_eq!((camera.eye.x, camera.eye.y), (0.0, 0.0));
+        assert_eq!(camera.forward, Vec3::NEG_Z);
+        // At the place of the camera it sees as much as it should.
+        let half = (camera.eye.z - 1.0) * camera.tan_half_fov;
+        assert!((half / ymag - 1.0).abs() < 1e-4, "{half}");
+        assert!(camera.tan_half_fov < 0.01);
+    }
+    for ymag in ["0", "1e38"] {
+        refused_at("cameras[0].orthographic.ymag", view(ymag));
+    }
+}
+
+/// A scene of one triangle, called `near`, and one of two.
+fn scenes(more: &str) -> File {
+    let scenes = r#"[{"name":"near","nodes":[0]},{"nodes":[0,1]},{"name":"0","nodes":[]}]"#;
+    let mut file = File::triangle()
+        .set("nodes", r#"[{"mesh":0},{"mesh":0,"translation":[0,0,1]}]"#)
+        .set("scenes", scenes);
+    file.json.remove("scene");
+    if !more.is_empty() {
+        file = file.set("scene", more);
+    }
+    file
+}
+
+#[test]
+fn another_scene_can_be_chosen() {
+    let choose = |wanted: Option<&str>, default: &str| {
+        let options = Options {
+            scene: wanted.map(String::from),
+            ..Options::default()
+        };
+        scenes(default).load_as(&options)
+    };
+    for (wanted, default, shown, triangles) in [
+        (None, "", 0, 1),
+        (None, "1", 1, 2),
+        (Some("near"), "1", 0, 1),
+        (Some("1"), "", 1, 2),
+        (Some("0"), "1", 2, 0),
+    ] {
+        let scene = choose(wanted, default).unwrap();
+        assert_eq!(scene.source.scene, Some(shown));
+        assert_eq!(scene.mesh.triangles.len(), triangles);
+        let said = format!("scene {shown} of 3 is shown; another can be chosen");
+        assert_eq!(scene.warnings.contains(&said), wanted.is_none());
+        assert_eq!(scene.source.scenes, ["near", "", "0"]);
+    }
+    for wanted in ["far", "3", "-1", ""] {
+        let error = choose(Some(wanted), "").unwrap_err();
+        assert!(matches!(error, Error::Setting { .. }), "{error}");
+        assert!(
+            error.to_string().contains("it has 0 `near`, 1, 2 `0`"),
+            "{error}"
+        );
+    }
+    let none = File::triangle().set("scenes", "[]");
+    let mut none = none.set("nodes", r#"[{"mesh":0}]"#);
+    none.json.remove("scene");
+    let options = Options {
+        scene: Some("0".into()),
+        ..Options::default()
+    };
+    assert!(none.load_as(&options).is_err());
+}
+
+#[test]
+fn a_scene_says_where_it_comes_from() {
+    let light = r#"{"name":"lamp","type":"spot","spot":{}}"#;
+    let file = lit(light, "").set("extensionsUsed", r#"["KHR_lights_punctual","X"]"#);
+    let file = file.set(
+        "nodes",
+        r#"[{"mesh":0,"children":[2]},
+        {"extensions":{"KHR_lights_punctual":{"light":0}}},{"mesh":0,"translation":[0,0,1]}]"#,
+    );
+    let bytes = (file.text().len() + file.bin.len()) as u64;
+    let scene = file.load().unwrap();
+    let source = &scene.source;
+    assert_eq!(source.bytes, bytes);
+    assert_eq!(source.extensions_used, ["KHR_lights_punctual", "X"]);
+    assert_eq!(source.extensions_ignored, ["X"]);
+    assert_eq!(
+        (source.unique_triangles, scene.mesh.triangles.len()),
+        (1, 2)
+    );
+    assert_eq!(source.lights, ["lamp"]);
+    assert_eq!(scene.memory_bytes(), 6 * 24 + 2 * 16);
 }
