@@ -170,7 +170,7 @@ const EXPECTED: &[(&str, Expected)] = &[
     ("khronos/Cameras/Cameras.gltf", Warned("orthographic")),
     (
         "lights-playcanvas/geometry-camera-light.glb",
-        NotYet("not perspective", "no orthographic cameras"),
+        Warned("orthographic"),
     ),
     (
         "khronos/BoxVertexColors/BoxVertexColors.glb",
