@@ -11,6 +11,7 @@ use vsgl_cpu::CpuBackend;
 use vsgl_tests::assets::assets;
 use vsgl_tests::gpu::{Tier, device};
 use vsgl_tests::render::Shot;
+use vsgl_tests::surfaces::everything;
 use vsgl_tests::view::{VIEWS, shot};
 
 const SAMPLES: [&str; 6] = [
@@ -99,6 +100,32 @@ fn samples_bit_by_bit_on_lavapipe() {
 #[test]
 fn views_bit_by_bit_on_lavapipe() {
     views((320, 180), "lights=256", Tier::Lavapipe, true);
+}
+
+/// Textures by all sorts of samplers, at an angle and far off; normal maps, colours, emission and what is unlit.
+#[test]
+fn everything_that_a_surface_can_be() {
+    for tangents in [true, false] {
+        // Whole tiles are lost from a coordinate's digits: with forty the ordinary path, which sums in another order, reads
+        // other places between texels.
+        for (tiles, aa, size) in [(40.0, 1, (160, 90)), (4.0, 2, (64, 36))] {
+            let mut shot = Shot::of(everything(tangents, tiles)).size(size.0, size.1);
+            shot.view.aa = aa;
+            let shot = shot.with("lights=64 rsm=128");
+            let plan = shot.plan();
+            let seen = plan.gbuffer.surface;
+            let sent = plan.bounce.expect("light").rsm.surface;
+            assert!(seen.emission && seen.normal_maps && seen.colors && seen.unlit);
+            assert!(sent.textures && sent.normal_maps && sent.colors && !sent.emission);
+            let name = format!("everything, tangents {tangents}, {tiles} tiles");
+            agree(&name, &shot, Tier::Lavapipe, true);
+            agree(&name, &shot, Tier::SwiftShader, true);
+            agree(&name, &shot, Tier::Hardware, false);
+            if tiles < 10.0 {
+                agree(&name, &shot, Tier::Lavapipe, false);
+            }
+        }
+    }
 }
 
 /// A scene by others: a spot in one of its upper corners shines at its centre, and the eye is in another corner.

@@ -6,7 +6,7 @@ use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use naga::{AddressSpace, Module, ShaderStage};
 use std::collections::{BTreeMap, BTreeSet};
 use vsgl_core::plan::Plan;
-use vsgl_core::scene::{SceneFacts, samples};
+use vsgl_core::scene::{SceneFacts, SurfaceFacts, samples};
 use vsgl_core::settings::{
     Clustering, DiffuseForm, Emission, GlossyForm, Method, OcclusionMethod, Primary, Settings,
     SharpnessFit, Variance,
@@ -23,8 +23,16 @@ fn plans() -> Vec<Plan> {
         let mut fact = sound.clone();
         fact.glossy_receivers = has(0);
         fact.glossy_senders = has(1);
-        fact.textures = has(2);
-        fact.reflecting_senders = has(3);
+        fact.reflecting_senders = has(2);
+        // Each by itself, beside all and none: what is read of surfaces is read apart.
+        let some = SurfaceFacts {
+            textures: has(3) != (bits % 5 == 0),
+            normal_maps: has(3) != (bits % 5 == 1),
+            colors: has(3) != (bits % 5 == 2),
+            unlit: has(3) != (bits % 5 == 3),
+            emission: has(3) != (bits % 5 == 4),
+        };
+        (fact.seen, fact.sent) = (some, some);
         facts.push(fact);
     }
     let mut plans = Vec::new();

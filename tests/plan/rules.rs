@@ -1,8 +1,8 @@
 //! Each rule with its reason.
 
 use vsgl_core::glam::Vec3;
-use vsgl_core::plan::Plan;
-use vsgl_core::scene::{DirectionalLight, Light, Material, PointLight, SpotLight};
+use vsgl_core::plan::{Plan, SurfacePlan};
+use vsgl_core::scene::{DirectionalLight, Light, Material, PointLight, SpotLight, TextureRef};
 use vsgl_core::settings::OcclusionMethod;
 use vsgl_tests::render::Shot;
 
@@ -160,19 +160,60 @@ fn a_cone_too_wide_for_one_map_takes_five() {
 }
 
 #[test]
-fn textures_are_read_only_where_there_are_any() {
-    let mut shot = shot("");
-    assert_eq!(
-        reason(&shot.plan(), "texture reads"),
-        Some((false, "no material has a texture"))
-    );
-    shot.scene.materials[0].base_color_texture = Some(vsgl_core::scene::TextureRef::new(0));
-    let plan = shot.plan();
+fn surfaces_are_read_only_where_there_is_something() {
+    let plain = shot("");
+    let topics = [
+        "texture reads",
+        "normal maps",
+        "vertex colours",
+        "unlit surfaces",
+        "emission",
+    ];
+    for topic in topics {
+        let plan = plain.plan();
+        let (runs, why) = reason(&plan, topic).expect(topic);
+        assert!(!runs && !why.is_empty(), "{topic}");
+        assert_eq!(plan.gbuffer.surface, SurfacePlan::default());
+        assert_eq!(
+            plan.bounce.expect("a bounce").rsm.surface,
+            plan.gbuffer.surface
+        );
+    }
+    let mut textured = shot("");
+    textured.scene.materials[0].base_color_texture = Some(TextureRef::new(0));
+    let plan = textured.plan();
     assert_eq!(
         reason(&plan, "texture reads"),
-        Some((true, "materials have textures"))
+        Some((
+            true,
+            "surfaces that are seen or reflect light have textures"
+        ))
     );
-    assert!(plan.gbuffer.textures && plan.bounce.expect("a bounce").rsm.textures);
+    assert!(plan.gbuffer.surface.textures && plan.bounce.expect("a bounce").rsm.surface.textures);
+    let whole = Shot::of(vsgl_tests::surfaces::everything(true, 4.0));
+    let plan = whole.plan();
+    for topic in topics {
+        assert!(
+            reason(&plan, topic).is_some_and(|(runs, _)| runs),
+            "{topic}"
+        );
+    }
+    let frame = whole.frame();
+    assert_eq!(frame.gbuffer.emission.len(), frame.gbuffer.triangle.len());
+    assert!(plain.frame().gbuffer.emission.is_empty());
+}
+
+#[test]
+fn without_lights_only_the_camera_reads_surfaces() {
+    let mut dark = Shot::of(vsgl_tests::surfaces::everything(true, 4.0));
+    dark.lights.clear();
+    let plan = dark.plan();
+    assert!(plan.bounce.is_none() && plan.gbuffer.surface.emission);
+    let image = dark.image();
+    assert!(
+        image.direct.iter().any(|rgb| rgb[0] > 0.0),
+        "what shines is seen"
+    );
 }
 
 #[test]

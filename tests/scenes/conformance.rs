@@ -160,10 +160,6 @@ const EXPECTED: &[(&str, Expected)] = &[
     ),
     // To come.
     (
-        "khronos/UnlitTest/UnlitTest.glb",
-        NotYet("KHR_materials_unlit", "unlit is not supported"),
-    ),
-    (
         "khronos/MultipleScenes/MultipleScenes.gltf",
         Warned("scene 1 of 2"),
     ),
@@ -173,28 +169,8 @@ const EXPECTED: &[(&str, Expected)] = &[
         Warned("orthographic"),
     ),
     (
-        "khronos/BoxVertexColors/BoxVertexColors.glb",
-        NotYet("vertex colours", "no vertex colours"),
-    ),
-    (
-        "khronos/VertexColorTest/VertexColorTest.gltf",
-        NotYet("vertex colours", "no vertex colours"),
-    ),
-    (
-        "khronos/EmissiveStrengthTest/EmissiveStrengthTest.gltf",
-        NotYet("emission", "surfaces do not shine"),
-    ),
-    (
         "generated/emissive_only.gltf",
-        NotYet("emission", "surfaces do not shine"),
-    ),
-    (
-        "khronos/NormalTangentTest/NormalTangentTest.glb",
-        NotYet("normal maps", "no normal maps"),
-    ),
-    (
-        "khronos/SpecularTest/SpecularTest.glb",
-        NotYet("KHR_materials_specular", "no specular textures"),
+        Warned("lights without intensity"),
     ),
     (
         "khronos/AnisotropyStrengthTest/AnisotropyStrengthTest.glb",
@@ -206,14 +182,7 @@ const EXPECTED: &[(&str, Expected)] = &[
     ),
     (
         "khronos/TextureTransformMultiTest/TextureTransformMultiTest.glb",
-        NotYet(
-            "KHR_materials_clearcoat",
-            "textures other than the two of the base layer",
-        ),
-    ),
-    (
-        "khronos/MultiUVTest/MultiUVTest.glb",
-        NotYet("emission", "its second texture is emissive"),
+        Warned("KHR_materials_clearcoat"),
     ),
     (
         "lights-atteneder/LightsPoint.gltf",
@@ -234,8 +203,6 @@ const EXPECTED: &[(&str, Expected)] = &[
 /// Warnings that the rest may have: they are not what these files are for.
 const INCIDENTAL: &[&str] = &[
     "animations are ignored",
-    "vertex colours are ignored",
-    "normal maps are ignored",
     "extension `KHR_materials_pbrSpecularGlossiness` is ignored",
 ];
 

@@ -6,4 +6,5 @@ pub mod gpu;
 pub mod measure;
 pub mod random;
 pub mod render;
+pub mod surfaces;
 pub mod view;

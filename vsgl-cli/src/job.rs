@@ -69,7 +69,13 @@ impl Job {
         let settings = choose::settings(settings, defaults.lights)?;
         let size = view.size.unwrap_or(defaults.size);
         let name = scene.scene.clone().unwrap_or_else(|| DEFAULT_SCENE.into());
-        let read = read_scene(&name, scene)?;
+        let mut read = read_scene(&name, scene)?;
+        if scene.only_added_lights {
+            // What shines is a light of the file too.
+            read.materials
+                .iter_mut()
+                .for_each(|m| m.emission = [0.0; 3]);
+        }
         let mut warnings = read.warnings.clone();
         let lights = choose::lights(&read, scene)?;
         let (camera_name, camera) = choose::camera(&read, scene, size, &mut warnings)?;
@@ -85,7 +91,12 @@ impl Job {
         let facts = SceneFacts::new(&read, &lights, &camera);
         let plan = Plan::new(&facts, &settings)?;
         if facts.triangles > 0 && lights.is_empty() {
-            warnings.push("no light: the picture will be black; add one with --spot".into());
+            let shown = if facts.seen.emission || facts.seen.unlit {
+                "nothing but what shines by itself will be seen"
+            } else {
+                "the picture will be black"
+            };
+            warnings.push(format!("no light: {shown}; add one with --spot"));
         }
         Ok(Self {
             own_lights: !scene.only_added_lights,

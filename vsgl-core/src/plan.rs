@@ -1,7 +1,7 @@
 //! What will run, decided once from the scene's facts and the settings, with a reason for each decision.
 
 use crate::error::{Error, Result};
-use crate::scene::SceneFacts;
+use crate::scene::{SceneFacts, SurfaceFacts};
 use crate::settings::{
     Clustering, DiffuseForm, Emission, GlossyForm, Method, OcclusionMethod, PdfMethod, Primary,
     Settings, SharpnessFit, Variance,
@@ -38,10 +38,25 @@ pub struct GBufferPlan {
     pub glossy: bool,
     /// Write tangents and the second roughness.
     pub anisotropic: bool,
-    /// Read textures.
-    pub textures: bool,
+    /// What is read of surfaces.
+    pub surface: SurfacePlan,
     /// What decides which triangle a sample sees.
     pub primary: Primary,
+}
+
+/// What is read of a surface besides position, normal and factors.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct SurfacePlan {
+    /// Textures of colours and factors.
+    pub textures: bool,
+    /// Normal maps.
+    pub normal_maps: bool,
+    /// Colours of vertices.
+    pub colors: bool,
+    /// Whether it is one that reflects nothing.
+    pub unlit: bool,
+    /// What it sends by itself, into the column of the G-buffer.
+    pub emission: bool,
 }
 
 /// The way of the light from the maps to the lights that shade.
@@ -64,8 +79,8 @@ pub struct RsmPlan {
     pub glossy: bool,
     /// Write tangents and the second roughness.
     pub anisotropic: bool,
-    /// Read textures.
-    pub textures: bool,
+    /// What is read of surfaces.
+    pub surface: SurfacePlan,
 }
 
 impl RsmPlan {
@@ -190,11 +205,7 @@ impl Plan {
                 ],
                 "anisotropic surfaces within reach of the lights",
             );
-        let textures = reasons.decide(
-            "texture reads",
-            &[(facts.textures, "no material has a texture")],
-            "materials have textures",
-        );
+        let (seen, sent) = surfaces(facts, lit, &mut reasons);
         if settings.emission == Emission::Cosine && settings.glossy == GlossyForm::Asg2013 {
             return Err(Error::setting(
                 "glossy",
@@ -229,7 +240,7 @@ impl Plan {
                 size,
                 glossy: senders,
                 anisotropic: stretching,
-                textures,
+                surface: sent,
             },
             pdf: samples.then_some(PdfPlan {
                 method: settings.pdf,
@@ -273,7 +284,7 @@ impl Plan {
         let gbuffer = GBufferPlan {
             glossy: receivers,
             anisotropic: stretched,
-            textures,
+            surface: seen,
             primary: settings.primary,
         };
         Ok(Self {
@@ -283,6 +294,58 @@ impl Plan {
             reasons: reasons.0,
         })
     }
+}
+
+/// What is read of the surfaces that the camera sees, and of those that the lights see.
+fn surfaces(facts: &SceneFacts, lit: bool, reasons: &mut Reasons) -> (SurfacePlan, SurfacePlan) {
+    let sent = if lit {
+        facts.sent
+    } else {
+        SurfaceFacts::default()
+    };
+    let seen = facts.seen;
+    let mut either = |topic, [seen, sent]: [bool; 2], without: &str, with: &str| {
+        reasons.decide(topic, &[(seen || sent, without)], with);
+        [seen, sent]
+    };
+    let textures = either(
+        "texture reads",
+        [seen.textures, sent.textures],
+        "no surface that is seen or reflects light has a texture",
+        "surfaces that are seen or reflect light have textures",
+    );
+    let normal_maps = either(
+        "normal maps",
+        [seen.normal_maps, sent.normal_maps],
+        "no surface that is seen or reflects light has one",
+        "surfaces that are seen or reflect light have them",
+    );
+    let colors = either(
+        "vertex colours",
+        [seen.colors, sent.colors],
+        "no surface that is seen or reflects light has them",
+        "surfaces that are seen or reflect light have them",
+    );
+    let unlit = either(
+        "unlit surfaces",
+        [seen.unlit, sent.unlit],
+        "every surface that is seen or reflects light is lit",
+        "they show their colour and reflect nothing",
+    );
+    let emission = either(
+        "emission",
+        [seen.emission || seen.unlit, false],
+        "no surface in front of the camera shines by itself",
+        "surfaces in front of the camera shine by themselves",
+    );
+    let plan = |i: usize| SurfacePlan {
+        textures: textures[i],
+        normal_maps: normal_maps[i],
+        colors: colors[i],
+        unlit: unlit[i],
+        emission: emission[i],
+    };
+    (plan(0), plan(1))
 }
 
 #[derive(Default)]

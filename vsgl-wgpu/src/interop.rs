@@ -24,7 +24,7 @@ use vsgl_core::data::{GBuffer, Radiance, Rsm, SceneData};
 use vsgl_core::glam::Vec3;
 use vsgl_core::plan::Plan;
 use vsgl_core::render::{Phase, View};
-use vsgl_core::scene::{Camera, Light, SceneFacts};
+use vsgl_core::scene::{Camera, Light, SceneFacts, SurfaceFacts};
 use vsgl_core::settings::{OcclusionMethod, Settings};
 use vsgl_core::{Error, Result};
 use wgpu::{CommandEncoder, TextureView};
@@ -75,7 +75,8 @@ pub fn host_plan(settings: &Settings, lights: usize, glossy: bool) -> Result<Pla
         // Hosts' textures have one roughness.
         anisotropic_senders: false,
         anisotropic_receivers: false,
-        textures: true,
+        seen: SurfaceFacts::ALL,
+        sent: SurfaceFacts::ALL,
         bounds: (Vec3::ZERO, Vec3::ZERO),
     };
     Plan::new(&facts, settings)

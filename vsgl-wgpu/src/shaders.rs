@@ -59,7 +59,9 @@ pub const MODULES: &[(&str, &str)] = modules![
     "phase/direct",
     "phase/facing",
     "phase/filtered",
+    "phase/footprint",
     "phase/gbuffer",
+    "phase/normal_map",
     "phase/partition",
     "phase/pdf",
     "phase/reflect",
@@ -140,7 +142,10 @@ const fn words<T>() -> u32 {
 /// Constants of phases and geometry, written once in Rust.
 fn header() -> String {
     use vsgl_core::data::{self, map_kind};
-    use vsgl_core::phase::{cluster, direct, facing, partition, pdf, rsm, shade, surface};
+    use vsgl_core::phase::{
+        cluster, direct, facing, footprint, normal_map, partition, pdf, rsm, shade, surface,
+        texture,
+    };
     let floats: &[(&str, f32)] = &[
         ("ALPHA_MIN", surface::ALPHA_MIN),
         ("FOOTPRINT_COSINE_MIN", rsm::FOOTPRINT_COSINE_MIN),
@@ -153,6 +158,11 @@ fn header() -> String {
         ("MAP_PARALLEL", map_kind::PARALLEL),
         ("NORMAL_SCALE", partition::NORMAL_SCALE),
         ("BELOW_ONE", pdf::BELOW_ONE),
+        ("GRAZING_MIN", footprint::GRAZING_MIN),
+        ("HORIZON", normal_map::HORIZON),
+        ("TANGENT_MIN", normal_map::TANGENT_MIN),
+        ("AXIS_MAX", texture::AXIS_MAX),
+        ("HALF_LOG2_E", texture::HALF_LOG2_E),
     ];
     let integers: &[(&str, u32)] = &[
         ("NO_TRIANGLE", data::NO_TRIANGLE),
@@ -165,6 +175,7 @@ fn header() -> String {
         ("NEAREST", data::NEAREST),
         ("MIPS", data::MIPS),
         ("SECOND_SET", data::SECOND_SET),
+        ("TAPS", texture::TAPS),
         ("STACK", vsgl_core::geom::STACK as u32),
         ("TEXEL_SIDE", crate::texels::SIDE),
         ("INVOCATIONS", crate::kernel::INVOCATIONS),

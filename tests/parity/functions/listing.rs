@@ -213,12 +213,14 @@ fn every_function_has_a_twin_and_a_test() {
 
 /// Plain functions of whole records, such as a map, a camera or the sums of a cluster, and of indices: every pixel, cluster
 /// and round of the phases compares them.
-const COMPARED_AS_PHASES: [&str; 13] = [
+const COMPARED_AS_PHASES: [&str; 16] = [
     "cluster_lights",
     "cluster_stretched",
     "direct_incoming",
+    "footprint_step",
     "gbuffer_ray",
     "kernel_record",
+    "normal_map_facing",
     "pdf_fibonacci",
     "pdf_level_count",
     "pdf_level_start",
@@ -227,6 +229,7 @@ const COMPARED_AS_PHASES: [&str; 13] = [
     "sum_merge",
     "sum_scaled",
     "sum_weight",
+    "texture_half",
 ];
 
 /// Functions of phases and geometry that read nothing but their arguments: name and file.

@@ -28,5 +28,7 @@ columns! {
         grazing: f32,
         /// xyz: unit tangent that `alpha` belongs to; w: `alpha` across it. Empty where no surface has two roughnesses.
         tangent: [f32; 4],
+        /// Radiance that surfaces send to the eye by themselves \[W/(m² sr)\]. Empty where none does.
+        emission: [f32; 3],
     }
 }

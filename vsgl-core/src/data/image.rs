@@ -13,7 +13,7 @@ columns! {
             /// Height in pixels.
             height,
         }
-        /// Reflected light of the lights themselves \[W/(m² sr)\].
+        /// Reflected light of the lights themselves, and what surfaces send by themselves \[W/(m² sr)\].
         direct: [f32; 3],
         /// One bounce, by the receiver's Lambert part \[W/(m² sr)\].
         indirect_diffuse: [f32; 3],

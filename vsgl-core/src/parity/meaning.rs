@@ -67,6 +67,7 @@ const TABLE: &[Row] = {
         ("gbuffer", "specular", Picture, &[("f0", 3, Numbers), ("alpha", 1, Magnitudes)]),
         ("gbuffer", "grazing", Picture, &[("", 1, Numbers)]),
         ("gbuffer", "tangent", Picture, &[("tangent", 3, Vector), ("alpha", 1, Magnitudes)]),
+        ("gbuffer", "emission", Picture, &[("", 3, Numbers)]),
         ("radiance", "direct", Picture, &[("", 3, Numbers)]),
         ("radiance", "indirect_diffuse", Picture, &[("", 3, Numbers)]),
         ("radiance", "indirect_glossy", Picture, &[("", 3, Numbers)]),

@@ -1,10 +1,12 @@
 //! What the camera sees through one sample.
 
+use super::footprint::Place;
 use super::surface::{self, Surface};
 use crate::data::{GBuffer, NO_TRIANGLE, SceneData};
 use crate::geom::{Ray, closest_hit};
 use crate::plan::GBufferPlan;
 use crate::render::View;
+use glam::Vec3;
 
 /// Ray through the sample in column `x` and row `y` of the sample grid; its direction has length 1 along the view
 /// axis, so that its parameter is the depth.
@@ -23,6 +25,13 @@ pub fn ray(view: &View, x: u32, y: u32) -> Ray {
         camera.eye,
         (camera.forward + camera.right * across) + camera.up * upwards,
     )
+}
+
+/// By how much directions of rays differ from one sample of a pixel to the next, along columns and rows.
+pub fn steps(view: &View) -> [Vec3; 2] {
+    let camera = &view.camera;
+    let scale = 2.0 * camera.tan_half_fov / view.height as f32 / view.aa as f32;
+    [camera.right * scale, camera.up * -scale]
 }
 
 /// One sample of the G-buffer.
@@ -47,7 +56,9 @@ pub fn sample(scene: &SceneData, view: &View, x: u32, y: u32, plan: &GBufferPlan
             surface: Surface::default(),
         };
     }
-    let surface = surface::at_hit(scene, &hit, ray.direction, plan.textures);
+    let [across, down] = steps(view).map(|step| step * hit.t);
+    let place = Place::at_hit(scene, &hit, ray.direction, across, down);
+    let surface = surface::at_hit(scene, &place, ray.direction, &plan.surface);
     Sample {
         triangle: hit.triangle,
         depth: hit.t,
@@ -56,8 +67,9 @@ pub fn sample(scene: &SceneData, view: &View, x: u32, y: u32, plan: &GBufferPlan
 }
 
 impl GBuffer {
-    /// Columns from samples, row-major; the specular columns only where the plan has them.
-    pub fn from_samples(width: u32, height: u32, samples: &[Sample], glossy: bool) -> Self {
+    /// Columns from samples, row-major; those of gloss and emission only where the plan has them.
+    pub fn from_samples(width: u32, height: u32, samples: &[Sample], plan: &GBufferPlan) -> Self {
+        let (glossy, emission) = (plan.glossy, plan.surface.emission);
         let column = |f: fn(&Sample) -> [f32; 4]| samples.iter().map(f).collect::<Vec<_>>();
         let specular = |f: fn(&Sample) -> [f32; 4]| if glossy { column(f) } else { Vec::new() };
         Self {
@@ -74,6 +86,11 @@ impl GBuffer {
                 Vec::new()
             },
             tangent: Vec::new(),
+            emission: if emission {
+                samples.iter().map(|s| s.surface.emission).collect()
+            } else {
+                Vec::new()
+            },
         }
     }
 }

@@ -5,7 +5,7 @@ use crate::data::{GBuffer, NO_TRIANGLE, Radiance};
 /// All layers of one pixel; see [`crate::data::Image`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Pixel {
-    /// Direct light.
+    /// Direct light, and what surfaces send by themselves.
     pub direct: [f32; 3],
     /// One bounce by the Lambert part.
     pub indirect_diffuse: [f32; 3],
@@ -32,6 +32,7 @@ pub fn pixel(gbuffer: &GBuffer, radiance: &Radiance, aa: u32, x: u32, y: u32) ->
             }
             hits += 1.0;
             add(&mut pixel.direct, layer(&radiance.direct, index));
+            add(&mut pixel.direct, layer(&gbuffer.emission, index));
             add(
                 &mut pixel.indirect_diffuse,
                 layer(&radiance.indirect_diffuse, index),

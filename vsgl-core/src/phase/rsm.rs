@@ -1,6 +1,7 @@
 //! What a light sees through one texel of its map.
 
 use super::facing::geometric_normal;
+use super::footprint::Place;
 use super::surface;
 use crate::brdf::albedo::ggx_albedo;
 use crate::data::{ALL_AROUND, LightRecord, MapRecord, NO_TRIANGLE, Rsm, SceneData, map_kind};
@@ -172,6 +173,20 @@ pub fn ray(map: &MapRecord, size: u32, x: u32, y: u32) -> (Ray, Vec3) {
     (Ray::new(position, direction), flux)
 }
 
+/// By how much rays differ from one texel to the next where they have the parameter `t`, along columns and rows \[m\].
+pub fn steps(map: &MapRecord, size: u32, t: f32) -> [Vec3; 2] {
+    let far = if map.kind == map_kind::PARALLEL {
+        1.0
+    } else {
+        t
+    };
+    let step = 2.0 * map.tan_half_fov / size as f32 * far;
+    [
+        Vec3::from_array(map.right) * step,
+        Vec3::from_array(map.up) * -step,
+    ]
+}
+
 /// One virtual point light.
 #[derive(Clone, Copy, Debug)]
 pub struct Texel {
@@ -217,7 +232,9 @@ pub fn texel(
     if hit.triangle == NO_TRIANGLE {
         return Texel::EMPTY;
     }
-    let surface = surface::at_hit(scene, &hit, ray.direction, plan.textures);
+    let [across, down] = steps(map, size, hit.t);
+    let place = Place::at_hit(scene, &hit, ray.direction, across, down);
+    let surface = surface::at_hit(scene, &place, ray.direction, &plan.surface);
     let length = ray.direction.length();
     let light = ray.direction * (-1.0 / length);
     let facing = geometric_normal(scene, hit.triangle, light)

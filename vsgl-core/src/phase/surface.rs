@@ -1,9 +1,10 @@
 //! The surface at a hit: where it is, which way it faces, how it reflects.
 
-use super::texture;
-use crate::data::{NO_TEXTURE, SceneData};
-use crate::geom::Hit;
+use super::footprint::Place;
+use super::{normal_map, texture};
+use crate::data::{DOUBLE_SIDED, MaterialRecord, NO_TEXTURE, SceneData, UNLIT};
 use crate::math::vec::normalize;
+use crate::plan::SurfacePlan;
 use glam::Vec3;
 
 /// Smallest GGX `alpha` of a surface: below, the lobe is a mirror that no light of finite extent can hit in f32.
@@ -28,52 +29,116 @@ pub struct Surface {
     pub f90: f32,
     /// GGX roughness `alpha`, at least [`ALPHA_MIN`].
     pub alpha: f32,
+    /// Radiance that it sends to the viewer by itself \[W/(m² sr)\].
+    pub emission: [f32; 3],
 }
 
-/// The surface at a hit of a ray that runs along `direction` (any length).
+/// The surface at a place that a ray along `direction` (any length) has hit.
 ///
-/// Position and normal are interpolated; the material follows glTF 2.0 appendix B. Where `textured` is false no
-/// texture is read.
-pub fn at_hit(scene: &SceneData, hit: &Hit, direction: Vec3, textured: bool) -> Surface {
-    let triangle = hit.triangle as usize;
-    let (u, v) = (hit.u.clamp(0.0, 1.0), hit.v.clamp(0.0, 1.0));
+/// Position and normal are interpolated; the material follows glTF 2.0 appendix B. What `reads` leaves out is not looked at.
+pub fn at_hit(scene: &SceneData, place: &Place, direction: Vec3, reads: &SurfacePlan) -> Surface {
+    let triangle = place.triangle as usize;
+    let (u, v) = (place.u, place.v);
     let position = interpolate(&scene.corner[triangle], u, v);
-    let normal = normalize(interpolate(&scene.corner_normal[triangle], u, v));
-    let normal = if normal.dot(direction) > 0.0 {
-        -normal
-    } else {
-        normal
-    };
+    let smooth = normalize(interpolate(&scene.corner_normal[triangle], u, v));
+    let from_behind = smooth.dot(direction) > 0.0;
 
     let material = &scene.material[scene.triangle_material[triangle] as usize];
     let mut base = material.base_color;
     let mut metallic = material.metallic;
     let mut roughness = material.roughness;
-    // A plan made by hand may ask for textures that the scene has not.
-    if textured && !scene.texture.is_empty() {
-        let sample =
-            |texture: u32, srgb: bool| texture::sample(scene, texture, triangle, u, v, srgb);
+    let mut reflectance = material.reflectance;
+    let mut specular = material.specular;
+    // A plan made by hand may ask for what the scene has not.
+    let textures = !scene.texture.is_empty();
+    if reads.textures && textures {
+        let sample = |texture: u32, srgb: bool| texture::sample(scene, texture, place, srgb);
         if material.base_color_texture != NO_TEXTURE {
-            let color = sample(material.base_color_texture, true);
-            base = [base[0] * color[0], base[1] * color[1], base[2] * color[2]];
+            base = product(base, sample(material.base_color_texture, true));
         }
         if material.metallic_roughness_texture != NO_TEXTURE {
             let factors = sample(material.metallic_roughness_texture, false);
             roughness *= factors[1];
             metallic *= factors[2];
         }
+        if material.specular_texture != NO_TEXTURE {
+            specular *= sample(material.specular_texture, false)[3];
+        }
+        if material.specular_color_texture != NO_TEXTURE {
+            reflectance = product(reflectance, sample(material.specular_color_texture, true));
+        }
     }
-    let dielectric = material.reflectance.map(|c| c.min(1.0) * material.specular);
+    if reads.colors && !scene.corner_color.is_empty() {
+        base = product(base, color(scene, place));
+    }
+    let mut normal = smooth;
+    let mapped = reads.normal_maps && textures && material.normal_texture != NO_TEXTURE;
+    if mapped {
+        normal = normal_map::mapped(scene, material, place, smooth);
+    }
+    if from_behind {
+        normal = -normal;
+    }
+    if mapped {
+        normal = normal_map::facing(normal, direction);
+    }
+    let unlit = reads.unlit && material.flags & UNLIT != 0;
+    let mut emission = [0.0; 3];
+    if unlit {
+        emission = base;
+    } else if reads.emission {
+        emission = emitted(
+            scene,
+            material,
+            place,
+            direction,
+            reads.textures && textures,
+        );
+    }
+    if unlit {
+        (base, metallic, specular) = ([0.0; 3], 0.0, 0.0);
+    }
+    let dielectric = reflectance.map(|c| c.min(1.0) * specular);
     Surface {
         position,
         normal,
         diffuse: base.map(|c| (1.0 - metallic) * c),
         dielectric_f0: dielectric[0].max(dielectric[1]).max(dielectric[2]),
-        dielectric_f90: material.specular,
+        dielectric_f90: specular,
         f0: std::array::from_fn(|i| mix(dielectric[i], base[i], metallic)),
-        f90: mix(material.specular, 1.0, metallic),
+        f90: mix(specular, 1.0, metallic),
         alpha: (roughness * roughness).max(ALPHA_MIN),
+        emission,
     }
+}
+
+/// Radiance that a place sends against `direction` by itself \[W/(m² sr)\]: nothing from the back of a single-sided material.
+pub fn emitted(
+    scene: &SceneData,
+    material: &MaterialRecord,
+    place: &Place,
+    direction: Vec3,
+    textures: bool,
+) -> [f32; 3] {
+    let (_, ab, ac) = corners(&scene.corner[place.triangle as usize]);
+    if material.flags & DOUBLE_SIDED == 0 && ab.cross(ac).dot(direction) > 0.0 {
+        return [0.0; 3];
+    }
+    if textures && material.emissive_texture != NO_TEXTURE {
+        let texel = texture::sample(scene, material.emissive_texture, place, true);
+        return product(material.emission, texel);
+    }
+    material.emission
+}
+
+/// Colour and opacity of the vertices at a place.
+pub fn color(scene: &SceneData, place: &Place) -> [f32; 4] {
+    let c = &scene.corner_color[place.triangle as usize];
+    std::array::from_fn(|i| (c[i] + (c[i + 4] - c[i]) * place.u) + (c[i + 8] - c[i]) * place.v)
+}
+
+fn product(factor: [f32; 3], by: [f32; 4]) -> [f32; 3] {
+    [factor[0] * by[0], factor[1] * by[1], factor[2] * by[2]]
 }
 
 /// `a` where `t` is 0, `b` where it is 1.
@@ -81,9 +146,16 @@ pub(super) fn mix(a: f32, b: f32, t: f32) -> f32 {
     a + (b - a) * t
 }
 
-fn interpolate(corner: &[f32; 9], u: f32, v: f32) -> Vec3 {
+/// First corner, and the way from it to the second and third.
+pub(super) fn corners(corner: &[f32; 9]) -> (Vec3, Vec3, Vec3) {
     let a = Vec3::new(corner[0], corner[1], corner[2]);
     let ab = Vec3::new(corner[3], corner[4], corner[5]) - a;
     let ac = Vec3::new(corner[6], corner[7], corner[8]) - a;
+    (a, ab, ac)
+}
+
+/// What is given at the corners of a triangle, between them.
+pub(super) fn interpolate(corner: &[f32; 9], u: f32, v: f32) -> Vec3 {
+    let (a, ab, ac) = corners(corner);
     (a + ab * u) + ac * v
 }

@@ -1,61 +1,179 @@
 //! Reading textures, with exact loads and our own interpolation.
 
+use super::footprint::Place;
 use super::surface::mix;
-use crate::data::{NEAREST, SECOND_SET, SceneData, TextureRecord};
+use crate::data::{MIPS, NEAREST, SECOND_SET, SceneData, TextureRecord};
+use crate::math::elementary::log;
 
-/// Where a texture is read at a point of a triangle, given by the weights of its second and third corner: u and v of the
-/// image.
-pub fn coordinates(
-    scene: &SceneData,
-    record: &TextureRecord,
-    triangle: usize,
-    u: f32,
-    v: f32,
-) -> [f32; 2] {
+/// Most reads along the longer axis of a footprint.
+pub const TAPS: u32 = 8;
+/// Largest square of a footprint's axis \[texels²\]: more texels there are not.
+pub const AXIS_MAX: f32 = 1e30;
+/// From the natural logarithm of a square to the binary logarithm of its root.
+pub const HALF_LOG2_E: f32 = 0.721_347_5;
+
+/// Texture coordinates of the image at the first corner of a triangle, and by how much those of the second and third differ.
+pub fn corners(scene: &SceneData, record: &TextureRecord, triangle: u32) -> [[f32; 2]; 3] {
     let c = if record.mode & SECOND_SET != 0 {
-        &scene.corner_texcoord_second[triangle]
+        &scene.corner_texcoord_second[triangle as usize]
     } else {
-        &scene.corner_texcoord[triangle]
+        &scene.corner_texcoord[triangle as usize]
     };
-    let s = (c[0] + (c[2] - c[0]) * u) + (c[4] - c[0]) * v;
-    let t = (c[1] + (c[3] - c[1]) * u) + (c[5] - c[1]) * v;
     let (to_u, to_v) = (record.to_u, record.to_v);
+    let turn = |s: f32, t: f32| [to_u[0] * s + to_u[1] * t, to_v[0] * s + to_v[1] * t];
+    let first = turn(c[0], c[1]);
     [
-        (to_u[0] * s + to_u[1] * t) + to_u[2],
-        (to_v[0] * s + to_v[1] * t) + to_v[2],
+        [first[0] + to_u[2], first[1] + to_v[2]],
+        turn(c[2] - c[0], c[3] - c[1]),
+        turn(c[4] - c[0], c[5] - c[1]),
     ]
 }
 
-/// Four channels 0..=1 at a point of a triangle. `srgb` decodes red, green and blue before they are interpolated.
-pub fn sample(
+/// Which texels stand for a footprint: a row of places in one image, or between two.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reach {
+    /// Middle of the row, in texture coordinates.
+    pub at: [f32; 2],
+    /// From its one end to the other.
+    pub along: [f32; 2],
+    /// Number of places, 1 to [`TAPS`].
+    pub taps: u32,
+    /// Image: 0 the full one, 1 that of half its size …
+    pub level: f32,
+}
+
+/// The texels to read at a place: so many places along the longer axis of its footprint, and images so small, that places
+/// lie as far apart as texels do.
+///
+/// Source: Heckbert 1989, "Fundamentals of Texture Mapping and Image Warping", section 3 (footprints are ellipses); McCormack,
+/// Perry, Farkas and Jouppi 1999, "Feline: Fast Elliptical Lines for Anisotropic Texture Mapping" (places along their axis).
+pub fn reach(scene: &SceneData, record: &TextureRecord, place: &Place) -> Reach {
+    let [a, b, c] = corners(scene, record, place.triangle);
+    let at = [
+        (a[0] + b[0] * place.u) + c[0] * place.v,
+        (a[1] + b[1] * place.u) + c[1] * place.v,
+    ];
+    let point = Reach {
+        at,
+        along: [0.0; 2],
+        taps: 1,
+        level: 0.0,
+    };
+    if record.mode & MIPS == 0 {
+        return point;
+    }
+    let (x, y) = (place.footprint.x, place.footprint.y);
+    let to_x = [b[0] * x[0] + c[0] * x[1], b[1] * x[0] + c[1] * x[1]];
+    let to_y = [b[0] * y[0] + c[0] * y[1], b[1] * y[0] + c[1] * y[1]];
+    let (width, height) = (record.width as f32, record.height as f32);
+    let squared = |to: [f32; 2]| {
+        let (s, t) = (to[0] * width, to[1] * height);
+        (s * s + t * t).min(AXIS_MAX)
+    };
+    let (x2, y2) = (squared(to_x), squared(to_y));
+    let longer = x2.max(y2);
+    let shorter = x2.min(y2).max(1.0);
+    let most = TAPS as f32;
+    let taps = (longer / shorter).sqrt().ceil().clamp(1.0, most);
+    let last = (record.levels - 1) as f32;
+    let level = HALF_LOG2_E * log((longer / (taps * taps)).max(1.0));
+    Reach {
+        at,
+        along: if x2 < y2 { to_y } else { to_x },
+        taps: taps as u32,
+        level: level.max(0.0).min(last),
+    }
+}
+
+/// Four channels 0..=1 over the footprint of a place. `srgb` decodes red, green and blue before they are interpolated.
+pub fn sample(scene: &SceneData, texture: u32, place: &Place, srgb: bool) -> [f32; 4] {
+    let record = scene.texture[texture as usize];
+    let reach = reach(scene, &record, place);
+    let share = 1.0 / reach.taps as f32;
+    let mut sum = [0.0; 4];
+    for tap in 0..reach.taps {
+        let from_middle = (tap as f32 + 0.5) * share - 0.5;
+        let u = reach.at[0] + reach.along[0] * from_middle;
+        let v = reach.at[1] + reach.along[1] * from_middle;
+        let texel = between(scene, &record, u, v, reach.level, srgb);
+        sum = std::array::from_fn(|i| sum[i] + texel[i]);
+    }
+    scaled(sum.map(|c| c * share), srgb)
+}
+
+/// At one place: a mean of the two images about `level`. Codes are not scaled yet.
+fn between(
     scene: &SceneData,
-    texture: u32,
-    triangle: usize,
+    record: &TextureRecord,
+    u: f32,
+    v: f32,
+    level: f32,
+    srgb: bool,
+) -> [f32; 4] {
+    let whole = level.floor();
+    let share = level - whole;
+    let larger = filtered(scene, record, &image(record, whole as u32), u, v, srgb);
+    if share == 0.0 {
+        return larger;
+    }
+    let smaller = filtered(scene, record, &image(record, whole as u32 + 1), u, v, srgb);
+    std::array::from_fn(|i| mix(larger[i], smaller[i], share))
+}
+
+/// One image of a texture.
+struct Image {
+    first: u32,
+    width: u32,
+    height: u32,
+}
+
+fn image(record: &TextureRecord, level: u32) -> Image {
+    let mut image = Image {
+        first: record.first,
+        width: record.width,
+        height: record.height,
+    };
+    for i in 0..level {
+        image = Image {
+            first: if i == 0 {
+                record.smaller
+            } else {
+                image.first + image.width * image.height
+            },
+            width: half(image.width),
+            height: half(image.height),
+        };
+    }
+    image
+}
+
+/// Size of the next smaller image.
+pub fn half(size: u32) -> u32 {
+    (size / 2).max(1)
+}
+
+/// Four texels about a place, or the nearest one, as the sampler says.
+fn filtered(
+    scene: &SceneData,
+    record: &TextureRecord,
+    image: &Image,
     u: f32,
     v: f32,
     srgb: bool,
 ) -> [f32; 4] {
-    let record = scene.texture[texture as usize];
-    let [u, v] = coordinates(scene, &record, triangle, u, v);
-    let x = u * record.width as f32 - 0.5;
-    let y = v * record.height as f32 - 0.5;
+    let x = u * image.width as f32 - 0.5;
+    let y = v * image.height as f32 - 0.5;
+    let texel = |x: f32, y: f32| load(scene, record, image, x, y, srgb);
     if record.mode & NEAREST != 0 {
-        return scaled(
-            load(scene, &record, (x + 0.5).floor(), (y + 0.5).floor(), srgb),
-            srgb,
-        );
+        return texel((x + 0.5).floor(), (y + 0.5).floor());
     }
     let (left, top) = (x.floor(), y.floor());
     let (s, t) = (x - left, y - top);
-    let corner = |dx: f32, dy: f32| load(scene, &record, left + dx, top + dy, srgb);
-    let (a, b, c, d) = (
-        corner(0.0, 0.0),
-        corner(1.0, 0.0),
-        corner(0.0, 1.0),
-        corner(1.0, 1.0),
-    );
-    let mixed = std::array::from_fn(|i| mix(mix(a[i], b[i], s), mix(c[i], d[i], s), t));
-    scaled(mixed, srgb)
+    let a = texel(left, top);
+    let b = texel(left + 1.0, top);
+    let c = texel(left, top + 1.0);
+    let d = texel(left + 1.0, top + 1.0);
+    std::array::from_fn(|i| mix(mix(a[i], b[i], s), mix(c[i], d[i], s), t))
 }
 
 /// Channels that hold codes, divided by 255. After interpolation: before, a driver takes the factor out of the sums, and
@@ -71,10 +189,17 @@ fn scaled(texel: [f32; 4], srgb: bool) -> [f32; 4] {
 }
 
 /// A texel: linear colour where sRGB is decoded, codes 0..=255 elsewhere.
-fn load(scene: &SceneData, record: &TextureRecord, x: f32, y: f32, srgb: bool) -> [f32; 4] {
-    let column = wrap(x, record.width, record.mode & 3);
-    let row = wrap(y, record.height, record.mode >> 2 & 3);
-    let code = scene.texel[(record.first + row * record.width + column) as usize].to_le_bytes();
+fn load(
+    scene: &SceneData,
+    record: &TextureRecord,
+    image: &Image,
+    x: f32,
+    y: f32,
+    srgb: bool,
+) -> [f32; 4] {
+    let column = wrap(x, image.width, record.mode & 3);
+    let row = wrap(y, image.height, record.mode >> 2 & 3);
+    let code = scene.texel[(image.first + row * image.width + column) as usize].to_le_bytes();
     let channel = |i: usize| {
         if srgb && i < 3 {
             scene.srgb[usize::from(code[i])]

@@ -1,6 +1,6 @@
 //! What a scene contains, as far as the plan asks.
 
-use super::{Camera, DirectionalLight, Light, PointLight, Scene, Slot, SpotLight};
+use super::{Camera, DirectionalLight, Light, Material, PointLight, Scene, Slot, SpotLight};
 use glam::Vec3;
 
 /// Findings about a scene under its lights, seen by a camera. Each is conservative: "no" is certain.
@@ -22,10 +22,87 @@ pub struct SceneFacts {
     pub anisotropic_senders: bool,
     /// A surface that the camera may see has two roughnesses.
     pub anisotropic_receivers: bool,
-    /// Some material has a texture.
-    pub textures: bool,
+    /// What is to be read of triangles that the camera may see.
+    pub seen: SurfaceFacts,
+    /// What is to be read of triangles that the lights may reach, and that reflect anything.
+    pub sent: SurfaceFacts,
     /// Smallest box around all vertices \[m\], relative to the scene's origin.
     pub bounds: (Vec3, Vec3),
+}
+
+/// What some surface has besides position, normal and factors.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct SurfaceFacts {
+    /// Textures of colours and factors.
+    pub textures: bool,
+    /// A normal map.
+    pub normal_maps: bool,
+    /// Colours of vertices.
+    pub colors: bool,
+    /// Is unlit.
+    pub unlit: bool,
+    /// Sends light by itself.
+    pub emission: bool,
+}
+
+impl SurfaceFacts {
+    /// Everything.
+    pub const ALL: Self = Self {
+        textures: true,
+        normal_maps: true,
+        colors: true,
+        unlit: true,
+        emission: true,
+    };
+
+    fn of(material: &Material, colors: bool) -> Self {
+        let Material { unlit, .. } = *material;
+        let emission = !unlit && material.emission != [0.0; 3];
+        let read = |&slot: &Slot| match slot {
+            Slot::BaseColor => true,
+            Slot::Emissive => emission,
+            Slot::Normal | Slot::Anisotropy => false,
+            Slot::MetallicRoughness | Slot::Specular | Slot::SpecularColor => !unlit,
+        };
+        let mut read = Slot::ALL.iter().filter(|slot| read(slot));
+        Self {
+            textures: read.any(|&slot| material.texture(slot).is_some()),
+            normal_maps: !unlit && material.normal_texture.is_some(),
+            colors,
+            unlit,
+            emission,
+        }
+    }
+
+    /// What either has.
+    fn or(self, other: Self) -> Self {
+        Self {
+            textures: self.textures || other.textures,
+            normal_maps: self.normal_maps || other.normal_maps,
+            colors: self.colors || other.colors,
+            unlit: self.unlit || other.unlit,
+            emission: self.emission || other.emission,
+        }
+    }
+}
+
+/// What a material may add to the facts.
+#[derive(Clone, Copy, Debug)]
+struct Findings {
+    glossy: bool,
+    reflecting: bool,
+    surface: SurfaceFacts,
+}
+
+impl Findings {
+    fn of(material: &Material, colors: bool) -> Self {
+        let glossy = material.is_glossy() && !material.unlit;
+        Self {
+            glossy,
+            reflecting: glossy || (material.base_color != [0.0; 3] && !material.unlit),
+            surface: SurfaceFacts::of(material, colors),
+        }
+    }
 }
 
 impl SceneFacts {
@@ -42,28 +119,48 @@ impl SceneFacts {
             glossy_receivers: false,
             anisotropic_senders: false,
             anisotropic_receivers: false,
-            textures: scene
-                .materials
-                .iter()
-                .any(|m| Slot::ALL.iter().any(|&slot| m.texture(slot).is_some())),
+            seen: SurfaceFacts::default(),
+            sent: SurfaceFacts::default(),
             bounds: scene.bounds(),
         };
+        let colors = !scene.mesh.colors.is_empty();
+        let findings = |material: &Material| Findings::of(material, colors);
+        let findings: Vec<Findings> = scene.materials.iter().map(findings).collect();
         for (triangle, &material) in scene.mesh.triangles.iter().zip(&scene.mesh.material) {
-            let material = &scene.materials[material as usize];
-            let glossy = material.is_glossy();
-            let reflecting = glossy || material.base_color != [0.0; 3];
-            let sender_known = facts.reflecting_senders && (facts.glossy_senders || !glossy);
-            let receiver_known = facts.glossy_receivers || !glossy;
-            if sender_known && receiver_known {
+            let found = findings[material as usize];
+            // Geometry is looked at only where the material has something new to say.
+            let mut sent = facts.clone();
+            sent.add_sent(found);
+            let mut seen = facts.clone();
+            seen.add_seen(found);
+            if sent == facts && seen == facts {
                 continue;
             }
             let corners = triangle.map(|v| scene.mesh.positions[v as usize]);
-            let lit = lights.iter().any(|light| may_reach(light, corners));
-            facts.reflecting_senders |= lit && reflecting;
-            facts.glossy_senders |= lit && glossy;
-            facts.glossy_receivers |= glossy && may_see(camera, corners);
+            if sent != facts && lights.iter().any(|light| may_reach(light, corners)) {
+                facts.add_sent(found);
+            }
+            if seen != facts && may_see(camera, corners) {
+                facts.add_seen(found);
+            }
         }
         facts
+    }
+
+    /// The lights may reach such a surface. One that reflects nothing may still stand before others: it is told whether it is
+    /// unlit.
+    fn add_sent(&mut self, found: Findings) {
+        self.reflecting_senders |= found.reflecting;
+        self.glossy_senders |= found.glossy;
+        if found.reflecting || found.surface.unlit {
+            self.sent = self.sent.or(found.surface);
+        }
+    }
+
+    /// The camera may see such a surface.
+    fn add_seen(&mut self, found: Findings) {
+        self.glossy_receivers |= found.glossy;
+        self.seen = self.seen.or(found.surface);
     }
 }
 
@@ -111,7 +208,7 @@ fn may_see(camera: &Camera, corners: [Vec3; 3]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Material, Mesh};
+    use crate::scene::{Mesh, TextureRef};
     use proptest::prelude::*;
 
     /// One triangle at `corners`, of this material.
@@ -158,10 +255,8 @@ mod tests {
     fn a_metal_in_the_cone_sends_and_receives() {
         let facts = facts(Vec3::NEG_Z * 5.0, Material::metal("", [1.0; 3], 0.3));
         assert!(facts.glossy_senders && facts.reflecting_senders && facts.glossy_receivers);
-        assert_eq!(
-            (facts.triangles, facts.lights, facts.textures),
-            (1, 1, false)
-        );
+        assert_eq!((facts.triangles, facts.lights), (1, 1));
+        assert_eq!((facts.seen, facts.sent), Default::default());
     }
 
     #[test]
@@ -216,6 +311,39 @@ mod tests {
         // Black, but with a varnish.
         let varnished = facts(ahead, Material::dielectric("", [0.0; 3], 0.3));
         assert!(varnished.reflecting_senders && varnished.glossy_senders);
+    }
+
+    #[test]
+    fn surfaces_are_read_where_they_are_seen_or_lit() {
+        let whole = Material {
+            base_color_texture: Some(TextureRef::new(0)),
+            normal_texture: Some(TextureRef::new(0)),
+            emission: [1.0; 3],
+            ..Material::default()
+        };
+        let (ahead, beside) = (Vec3::NEG_Z * 5.0, Vec3::new(4.0, 0.0, -5.0));
+        let both = facts(ahead, whole.clone());
+        assert!(both.seen.textures && both.seen.normal_maps && both.seen.emission);
+        assert!(both.sent.textures && both.sent.normal_maps && !both.seen.colors);
+        let seen = facts(beside, whole.clone());
+        assert!(seen.seen.textures && seen.sent == SurfaceFacts::default());
+        let behind = facts(Vec3::Z * 5.0, whole.clone());
+        assert_eq!((behind.seen, behind.sent), Default::default());
+        // An unlit surface has neither gloss nor emission, and sends nothing.
+        let unlit = Material {
+            unlit: true,
+            ..whole
+        };
+        let unlit = facts(ahead, unlit);
+        assert!(!unlit.glossy_receivers && !unlit.reflecting_senders);
+        assert!(unlit.seen.unlit && unlit.sent.unlit && unlit.seen.textures);
+        assert!(!unlit.seen.normal_maps && !unlit.seen.emission);
+        // An emissive texture alone is read by the camera where there is emission to multiply.
+        let dark = Material {
+            emissive_texture: Some(TextureRef::new(0)),
+            ..Material::default()
+        };
+        assert!(!facts(ahead, dark).seen.textures);
     }
 
     #[test]

@@ -10,11 +10,12 @@ pub mod gltf;
 pub mod light;
 mod material;
 mod prepare;
+mod pyramid;
 pub mod samples;
 mod source;
 
 pub use camera::Camera;
-pub use facts::SceneFacts;
+pub use facts::{SceneFacts, SurfaceFacts};
 pub use light::{DirectionalLight, Light, PointLight, SpotLight};
 pub use material::{Filter, Material, Slot, Texture, TextureRef, Wrap};
 pub use source::{ImageSource, Source};

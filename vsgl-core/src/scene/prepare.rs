@@ -1,5 +1,6 @@
 //! From the scene as it was read to the scene as the phases read it.
 
+use super::pyramid::{self, srgb_to_linear};
 use super::{Filter, Material, Scene, Slot, TextureRef, Wrap};
 use crate::data::{
     DOUBLE_SIDED, MIPS, MaterialRecord, NEAREST, NO_TEXTURE, SECOND_SET, SceneData, TextureRecord,
@@ -7,6 +8,9 @@ use crate::data::{
 };
 use crate::geom;
 use glam::{Affine2, Vec2, Vec4};
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
 
 impl SceneData {
     /// Orders the triangles along a bounding volume hierarchy and gathers what shading them needs.
@@ -151,17 +155,32 @@ fn gather_materials(scene: &Scene) -> Vec<MaterialRecord> {
 }
 
 fn gather_textures(scene: &Scene) -> (Vec<TextureRecord>, Vec<u32>) {
+    let slots = |material| Slot::ALL.into_iter().zip(uses(material));
+    let used = scene.materials.iter().flat_map(slots);
+    let used: Vec<(Slot, TextureRef)> = used
+        .filter_map(|(slot, texture)| Some((slot, texture?)))
+        .collect();
     let mut first_of = Vec::with_capacity(scene.textures.len());
     let mut texels = Vec::new();
-    let used = scene.materials.iter().flat_map(uses).flatten();
-    if used.clone().next().is_some() {
+    if !used.is_empty() {
         for texture in &scene.textures {
             first_of.push(texels.len() as u32);
             texels.extend(texture.texels.iter().map(|&t| u32::from_le_bytes(t)));
         }
     }
-    let records = used.map(|use_| {
+    let wanted = used.iter().filter(|(_, texture)| texture.mips);
+    let wanted: BTreeSet<Pyramid> = wanted
+        .map(|&(slot, t)| (t.texture, is_srgb(slot)))
+        .collect();
+    let mut smaller_of = BTreeMap::new();
+    for (pyramid, words) in pyramids(scene, &Vec::from_iter(wanted)) {
+        smaller_of.insert(pyramid, texels.len() as u32);
+        texels.extend(words);
+    }
+    let records = used.into_iter().map(|(slot, use_)| {
         let texture = &scene.textures[use_.texture as usize];
+        let smaller = smaller_of.get(&(use_.texture, is_srgb(slot)));
+        let smaller = smaller.filter(|_| use_.mips);
         let Affine2 {
             matrix2,
             translation,
@@ -172,13 +191,48 @@ fn gather_textures(scene: &Scene) -> (Vec<TextureRecord>, Vec<u32>) {
             height: texture.height,
             mode: mode(&use_),
             to_u: [matrix2.x_axis.x, matrix2.y_axis.x, translation.x],
-            smaller: 0,
+            smaller: smaller.copied().unwrap_or_default(),
             to_v: [matrix2.x_axis.y, matrix2.y_axis.y, translation.y],
-            levels: 1,
+            levels: smaller.map_or(1, |_| pyramid::levels(texture)),
         }
     });
-    let records = records.collect();
-    (records, texels)
+    (records.collect(), texels)
+}
+
+/// A texture, and whether it holds sRGB colours.
+type Pyramid = (u32, bool);
+
+/// The smaller images of textures, on as many threads as there are cores.
+fn pyramids(scene: &Scene, wanted: &[Pyramid]) -> Vec<(Pyramid, Vec<u32>)> {
+    let next = AtomicUsize::new(0);
+    let work = || {
+        let mut done = Vec::new();
+        while let Some(&(texture, srgb)) = wanted.get(next.fetch_add(1, Ordering::Relaxed)) {
+            let words = pyramid::smaller(&scene.textures[texture as usize], srgb);
+            done.push(((texture, srgb), words));
+        }
+        done
+    };
+    let threads = thread::available_parallelism().map_or(1, usize::from);
+    let mut all = thread::scope(|scope| {
+        let others: Vec<_> = (1..threads.min(wanted.len()))
+            .map(|_| scope.spawn(work))
+            .collect();
+        let mut all = work();
+        for other in others {
+            match other.join() {
+                Ok(done) => all.extend(done),
+                Err(panic) => std::panic::resume_unwind(panic),
+            }
+        }
+        all
+    });
+    all.sort_by_key(|&(pyramid, _)| pyramid);
+    all
+}
+
+fn is_srgb(slot: Slot) -> bool {
+    matches!(slot, Slot::BaseColor | Slot::Emissive | Slot::SpecularColor)
 }
 
 /// [`TextureRecord::mode`] of a use.
@@ -194,15 +248,4 @@ fn mode(use_: &TextureRef) -> u32 {
         | flag(use_.filter == Filter::Nearest, NEAREST)
         | flag(use_.mips, MIPS)
         | flag(use_.set == 1, SECOND_SET)
-}
-
-/// Linear value 0..=1 of an 8-bit sRGB code (IEC 61966-2-1).
-fn srgb_to_linear(code: u32) -> f32 {
-    let c = f64::from(code) / 255.0;
-    let linear = if c <= 0.04045 {
-        c / 12.92
-    } else {
-        ((c + 0.055) / 1.055).powf(2.4)
-    };
-    linear as f32
 }

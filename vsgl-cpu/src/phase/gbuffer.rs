@@ -10,5 +10,5 @@ pub(crate) fn run(scene: &SceneData, view: &View, plan: &GBufferPlan) -> GBuffer
     let (width, height) = view.samples();
     let row = |y: u32| (0..width).map(move |x| sample(scene, view, x, y, plan));
     let samples: Vec<Sample> = (0..height).into_par_iter().flat_map_iter(row).collect();
-    GBuffer::from_samples(width, height, &samples, plan.glossy)
+    GBuffer::from_samples(width, height, &samples, plan)
 }

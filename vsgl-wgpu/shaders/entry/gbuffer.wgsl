@@ -1,8 +1,12 @@
-//! needs: data/index, data/view, geom/traverse, phase/surface, phase/gbuffer
+//! needs: data/index, data/view, geom/traverse, phase/footprint, phase/surface, phase/gbuffer
 // The G-buffer: which triangle each sample sees, then the surface there.
 
 override GLOSSY: bool = true;
-override TEXTURED: bool = true;
+override TEXTURES: bool = true;
+override NORMAL_MAPS: bool = true;
+override COLORS: bool = true;
+override UNLIT_ONES: bool = true;
+override EMISSION: bool = true;
 
 struct Params {
     view: View,
@@ -20,6 +24,7 @@ struct Params {
 // Columns position, normal, diffuse, specular, one after the other.
 @group(0) @binding(7) var<storage, read_write> surface_out: array<vec4<f32>>;
 @group(0) @binding(8) var<storage, read_write> grazing_out: array<f32>;
+@group(0) @binding(9) var<storage, read_write> emission_out: array<f32>;
 
 @compute @workgroup_size(INVOCATIONS)
 fn visibility(
@@ -53,7 +58,10 @@ fn surface(
         let ray = gbuffer_ray(view, i % view.samples_x, i / view.samples_x);
         let found = triangle_cross(ray.origin, ray.direction, corner[id]);
         depth = found.t;
-        seen = surface_at_hit(Hit(id, found.t, found.u, found.v), ray.direction);
+        let hit = Hit(id, found.t, found.u, found.v);
+        let across = gbuffer_step_across(view) * hit.t;
+        let down = gbuffer_step_down(view) * hit.t;
+        seen = surface_at_hit(place_at_hit(hit, ray.direction, across, down), ray.direction);
     }
     surface_out[i] = vec4(seen.position, depth);
     surface_out[count + i] = vec4(seen.normal, seen.dielectric_f90);
@@ -61,5 +69,10 @@ fn surface(
     if GLOSSY {
         surface_out[3u * count + i] = vec4(seen.f0, seen.alpha);
         grazing_out[i] = seen.f90;
+    }
+    if EMISSION {
+        emission_out[3u * i] = seen.emission.x;
+        emission_out[3u * i + 1u] = seen.emission.y;
+        emission_out[3u * i + 2u] = seen.emission.z;
     }
 }

@@ -2,6 +2,7 @@
 // From the samples of a pixel to the pixel.
 
 override GLOSSY: bool = true;
+override EMISSION: bool = true;
 override BOUNCE: bool = true;
 override BOUNCE_GLOSSY: bool = true;
 
@@ -23,6 +24,7 @@ struct Params {
 @group(0) @binding(3) var<storage, read> radiance: array<f32>;
 // Columns direct, indirect_diffuse, indirect_glossy, albedo, normal, depth.
 @group(0) @binding(4) var<storage, read_write> image_out: array<f32>;
+@group(0) @binding(5) var<storage, read> emission: array<f32>;
 
 fn layer(column: u32, i: u32) -> vec3<f32> {
     let at = 3u * (column * params.samples + i);
@@ -60,6 +62,9 @@ fn resolve(
             }
             hits += 1.0;
             pixel.direct += layer(0u, sample);
+            if EMISSION {
+                pixel.direct += vec3(emission[3u * sample], emission[3u * sample + 1u], emission[3u * sample + 2u]);
+            }
             if BOUNCE {
                 pixel.indirect_diffuse += layer(1u, sample);
             }

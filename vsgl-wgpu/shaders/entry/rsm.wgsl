@@ -2,7 +2,12 @@
 // Reflective shadow maps: which triangle each texel sees, then the virtual point light there. A dispatch a map.
 
 override GLOSSY: bool = true;
-override TEXTURED: bool = true;
+override TEXTURES: bool = true;
+override NORMAL_MAPS: bool = true;
+override COLORS: bool = true;
+override UNLIT_ONES: bool = true;
+// Maps have no place for it.
+const EMISSION: bool = false;
 
 struct Params {
     map: MapRecord,

@@ -13,3 +13,12 @@ fn gbuffer_place(view: View, sample: u32) -> f32 {
     let pixel = (sample / view.aa) * view.stride;
     return f32(pixel) + (f32(sample % view.aa) + 0.5) / f32(view.aa);
 }
+
+// By how much directions of rays differ from one sample of a pixel to the next.
+fn gbuffer_step_across(view: View) -> vec3<f32> {
+    return view.right * (2.0 * view.tan_half_fov / f32(view.height) / f32(view.aa));
+}
+
+fn gbuffer_step_down(view: View) -> vec3<f32> {
+    return view.up * -(2.0 * view.tan_half_fov / f32(view.height) / f32(view.aa));
+}

@@ -1,4 +1,4 @@
-//! needs: brdf/albedo, data/lights, geom/ray, math/vec, phase/facing, phase/surface
+//! needs: brdf/albedo, data/lights, geom/ray, math/vec, phase/facing, phase/footprint, phase/surface
 // What a light sees through one texel of its map. Twin of `vsgl-core/src/phase/rsm.rs`.
 
 struct RsmRay {
@@ -44,7 +44,9 @@ fn rsm_empty() -> Texel {
 
 // The texel at a hit of its ray.
 fn rsm_texel(map: MapRecord, size: u32, ray: Ray, sent: vec3<f32>, hit: Hit) -> Texel {
-    let seen = surface_at_hit(hit, ray.direction);
+    let step = 2.0 * map.tan_half_fov / f32(size) * select(hit.t, 1.0, map.kind == MAP_PARALLEL);
+    let place = place_at_hit(hit, ray.direction, map.right * step, map.up * -step);
+    let seen = surface_at_hit(place, ray.direction);
     let length = sqrt(dot(ray.direction, ray.direction));
     let light = ray.direction * (-1.0 / length);
     let normal = surface_geometric_normal(hit.triangle, light);

@@ -1,6 +1,6 @@
 //! What the camera sees.
 
-use super::{flag, scene_columns};
+use super::{flag, scene_columns, surface_constants};
 use crate::kernel::{Constant, KernelId};
 use crate::params::{TexelLayout, View};
 use crate::raster;
@@ -22,19 +22,18 @@ struct Params {
     padding: [u32; 3],
 }
 
-fn constants(glossy: bool, textures: bool) -> [Constant; 2] {
-    [("GLOSSY", flag(glossy)), ("TEXTURED", flag(textures))]
+fn constants(plan: &GBufferPlan, textures: bool) -> Vec<Constant> {
+    let mut constants = surface_constants(&plan.surface, textures).to_vec();
+    constants.push(("GLOSSY", flag(plan.glossy)));
+    constants.push(("EMISSION", flag(plan.surface.emission)));
+    constants
 }
 
 /// The pipelines that a plan needs.
 pub(crate) fn kernels(plan: &GBufferPlan) -> Vec<KernelId> {
     let mut kernels = vec![
         KernelId::new("entry/gbuffer", "visibility", &[]),
-        KernelId::new(
-            "entry/gbuffer",
-            "surface",
-            &constants(plan.glossy, plan.textures),
-        ),
+        KernelId::new("entry/gbuffer", "surface", &constants(plan, true)),
     ];
     if plan.primary == Primary::Raster {
         kernels.extend(raster::kernels());
@@ -54,6 +53,7 @@ pub(crate) fn record(
     let count = u64::from(width) * u64::from(height);
     let glossy = if plan.glossy { count } else { 0 };
     let stretched = if plan.anisotropic { count } else { 0 };
+    let emission = if plan.surface.emission { count } else { 0 };
     let made = WgpuRes::<GBuffer>::new(
         context,
         vec![width, height],
@@ -65,6 +65,7 @@ pub(crate) fn record(
             ("specular", 16, glossy),
             ("grazing", 4, glossy),
             ("tangent", 16, stretched),
+            ("emission", 12, emission),
         ],
     )?;
     let params = Params {
@@ -79,6 +80,7 @@ pub(crate) fn record(
         ("triangle_out", made.bind("triangle")),
         ("surface_out", made.bind("position")),
         ("grazing_out", made.bind("grazing")),
+        ("emission_out", made.bind("emission")),
     ]);
     if plan.primary == Primary::Raster && raster::fits(view) {
         raster::record(recorder, scene, view, &made)?;
@@ -86,9 +88,7 @@ pub(crate) fn record(
         let visibility = context.kernel("entry/gbuffer", "visibility", &[])?;
         recorder.dispatch(&visibility, &params, &bound, Groups::Items(count))?;
     }
-    // A plan made by hand may ask for textures that the scene has not.
-    let textures = plan.textures && scene.len("texture") > 0;
-    let constants = constants(plan.glossy, textures);
+    let constants = constants(plan, scene.len("texture") > 0);
     let surface = context.kernel("entry/gbuffer", "surface", &constants)?;
     recorder.dispatch(&surface, &params, &bound, Groups::Items(count))?;
     Ok(made)

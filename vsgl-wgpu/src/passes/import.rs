@@ -195,6 +195,8 @@ pub(crate) fn gbuffer(
             ("specular", 16, glossy),
             ("grazing", 4, glossy),
             ("tangent", 16, 0),
+            // The host draws it.
+            ("emission", 12, 0),
         ],
     )?;
     let kind = Kind {

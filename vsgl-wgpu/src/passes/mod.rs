@@ -11,11 +11,11 @@ pub(crate) mod resolve;
 pub(crate) mod rsm;
 pub(crate) mod shade;
 
-use crate::kernel::KernelId;
+use crate::kernel::{Constant, KernelId};
 use crate::recorder::Binding;
 use crate::res::WgpuRes;
 use vsgl_core::data::SceneData;
-use vsgl_core::plan::Plan;
+use vsgl_core::plan::{Plan, SurfacePlan};
 
 /// Every pipeline that a plan needs.
 pub fn kernels(plan: &Plan) -> Vec<KernelId> {
@@ -35,6 +35,17 @@ pub fn kernels(plan: &Plan) -> Vec<KernelId> {
 /// A `bool` as an `override` constant.
 fn flag(value: bool) -> f64 {
     f64::from(u8::from(value))
+}
+
+/// What is read of surfaces, as constants of `phase/surface.wgsl`; without what reads textures where a plan made by hand asks for
+/// some that the scene has not.
+fn surface_constants(plan: &SurfacePlan, textures: bool) -> [Constant; 4] {
+    [
+        ("TEXTURES", flag(plan.textures && textures)),
+        ("NORMAL_MAPS", flag(plan.normal_maps && textures)),
+        ("COLORS", flag(plan.colors)),
+        ("UNLIT_ONES", flag(plan.unlit)),
+    ]
 }
 
 /// The columns of a scene, under the names that shaders bind them by.

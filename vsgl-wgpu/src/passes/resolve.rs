@@ -21,9 +21,10 @@ struct Params {
     samples: u32,
 }
 
-fn constants(glossy: bool, bounce: bool, bounce_glossy: bool) -> [Constant; 3] {
+fn constants(glossy: bool, emission: bool, bounce: bool, bounce_glossy: bool) -> [Constant; 4] {
     [
         ("GLOSSY", flag(glossy)),
+        ("EMISSION", flag(emission)),
         ("BOUNCE", flag(bounce)),
         ("BOUNCE_GLOSSY", flag(bounce_glossy)),
     ]
@@ -32,7 +33,9 @@ fn constants(glossy: bool, bounce: bool, bounce_glossy: bool) -> [Constant; 3] {
 /// The pipelines that a plan needs.
 pub(crate) fn kernels(plan: &Plan) -> Vec<KernelId> {
     let (glossy, bounce) = (plan.gbuffer.glossy, plan.shade.bounce);
-    let constants = constants(glossy, bounce, bounce && plan.shade.glossy_receivers);
+    let emission = plan.gbuffer.surface.emission;
+    let bounce_glossy = bounce && plan.shade.glossy_receivers;
+    let constants = constants(glossy, emission, bounce, bounce_glossy);
     vec![KernelId::new("entry/resolve", "resolve", &constants)]
 }
 
@@ -68,6 +71,7 @@ pub(crate) fn record(
     let has = |layer| radiance.len(layer) > 0;
     let constants = constants(
         gbuffer.len("specular") > 0,
+        gbuffer.len("emission") > 0,
         has("indirect_diffuse"),
         has("indirect_glossy"),
     );
@@ -80,6 +84,7 @@ pub(crate) fn record(
             ("receiver", gbuffer.bind("position")),
             ("radiance", radiance.bind("direct")),
             ("image_out", made.bind("direct")),
+            ("emission", gbuffer.bind("emission")),
         ],
         Groups::Items(pixels),
     )?;

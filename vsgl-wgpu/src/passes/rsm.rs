@@ -1,6 +1,6 @@
 //! What the lights see.
 
-use super::{flag, scene_columns};
+use super::{flag, scene_columns, surface_constants};
 use crate::kernel::{Constant, KernelId};
 use crate::params::TexelLayout;
 use crate::recorder::{Groups, Recorder};
@@ -24,19 +24,17 @@ struct Params {
     count: u32,
 }
 
-fn constants(glossy: bool, textures: bool) -> [Constant; 2] {
-    [("GLOSSY", flag(glossy)), ("TEXTURED", flag(textures))]
+fn constants(plan: &RsmPlan, textures: bool) -> Vec<Constant> {
+    let mut constants = surface_constants(&plan.surface, textures).to_vec();
+    constants.push(("GLOSSY", flag(plan.glossy)));
+    constants
 }
 
 /// The pipelines that a plan needs.
 pub(crate) fn kernels(plan: &RsmPlan) -> Vec<KernelId> {
     vec![
         KernelId::new("entry/rsm", "visibility", &[]),
-        KernelId::new(
-            "entry/rsm",
-            "surface",
-            &constants(plan.glossy, plan.textures),
-        ),
+        KernelId::new("entry/rsm", "surface", &constants(plan, true)),
     ]
 }
 
@@ -68,9 +66,7 @@ pub(crate) fn record(
         ],
     )?;
     let visibility = context.kernel("entry/rsm", "visibility", &[])?;
-    // A plan made by hand may ask for textures that the scene has not.
-    let textures = plan.textures && scene.len("texture") > 0;
-    let constants = constants(plan.glossy, textures);
+    let constants = constants(plan, scene.len("texture") > 0);
     let surface = context.kernel("entry/rsm", "surface", &constants)?;
     let mut bound = scene_columns(scene);
     bound.extend([

@@ -277,15 +277,4 @@ fn note_ignored(source: &json::Material, warnings: &mut Warnings) {
         Checked::Valid(AlphaMode::Blend) => warnings.add("alpha blending is ignored: drawn opaque"),
         Checked::Invalid => warnings.add("unknown alpha modes are ignored"),
     }
-    if source.normal_texture.is_some() {
-        warnings.add("normal maps are ignored");
-    }
-    if source.emissive_factor.0 != [0.0; 3] {
-        warnings.add("emission is ignored: surfaces do not shine");
-    }
-    let specular = source.extensions.as_ref().and_then(|e| e.specular.as_ref());
-    if specular.is_some_and(|s| s.specular_texture.is_some() || s.specular_color_texture.is_some())
-    {
-        warnings.add("textures of KHR_materials_specular are ignored");
-    }
 }

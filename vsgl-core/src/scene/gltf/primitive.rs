@@ -182,8 +182,6 @@ impl<'a> Reader<'a> {
             }
         }
         if let Some(colors) = attributes.colors(vertices)? {
-            // They are read, but no phase looks at them yet.
-            warnings.add("vertex colours are ignored");
             read.colors = sources.iter().map(|&s| colors.get(s)).collect();
         }
         if form.bent {

@@ -15,7 +15,7 @@ fn every_sample_has_a_light_a_camera_and_glossy_surfaces_on_both_ends() {
         assert_eq!(scene.cameras[0].0, "main");
         let facts = SceneFacts::new(&scene, &scene.lights, &scene.cameras[0].1);
         assert!(facts.lights > 0 && facts.glossy_senders && facts.glossy_receivers);
-        assert!(!facts.textures);
+        assert_eq!((facts.seen, facts.sent), Default::default());
         for light in &scene.lights {
             let Light::Spot(spot) = light else {
                 panic!("{light:?}")
