@@ -117,6 +117,7 @@ fn everything_that_a_surface_can_be() {
             let sent = plan.bounce.expect("light").rsm.surface;
             assert!(seen.emission && seen.normal_maps && seen.colors && seen.unlit);
             assert!(sent.textures && sent.normal_maps && sent.colors && !sent.emission);
+            assert!(seen.anisotropy && sent.anisotropy);
             let name = format!("everything, tangents {tangents}, {tiles} tiles");
             agree(&name, &shot, Tier::Lavapipe, true);
             agree(&name, &shot, Tier::SwiftShader, true);
@@ -283,6 +284,24 @@ fn every_choice_of_the_settings() {
             .with(choice);
         agree(choice, &shot, Tier::Lavapipe, true);
         agree(choice, &shot, Tier::Lavapipe, false);
+    }
+}
+
+/// The forms for two roughnesses.
+#[test]
+fn every_choice_where_surfaces_are_anisotropic() {
+    for choice in [
+        "glossy=ndf-filter-2024",
+        "emission=sg glossy=asg-2013",
+        "clustering=filtered",
+        "method=vpl rsm=16",
+    ] {
+        let shot = Shot::of(everything(true, 4.0))
+            .size(64, 36)
+            .with("lights=32 rsm=64")
+            .with(choice);
+        assert!(shot.plan().shade.anisotropic_receivers);
+        agree(choice, &shot, Tier::Lavapipe, true);
     }
 }
 

@@ -31,6 +31,7 @@ fn plans() -> Vec<Plan> {
             colors: has(3) != (bits % 5 == 2),
             unlit: has(3) != (bits % 5 == 3),
             emission: has(3) != (bits % 5 == 4),
+            anisotropy: has(3) != (bits % 3 == 0),
         };
         (fact.seen, fact.sent) = (some, some);
         facts.push(fact);

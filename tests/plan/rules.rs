@@ -204,6 +204,44 @@ fn surfaces_are_read_only_where_there_is_something() {
 }
 
 #[test]
+fn two_roughnesses_only_for_anisotropic_gloss() {
+    let topics = [
+        "two roughnesses of the receivers",
+        "two roughnesses of the lights",
+    ];
+    let runs = |shot: &Shot| {
+        let plan = shot.plan();
+        let both = (
+            plan.shade.anisotropic_receivers,
+            plan.shade.anisotropic_senders,
+        );
+        let told = topics.map(|topic| reason(&plan, topic).is_some_and(|(runs, _)| runs));
+        assert_eq!((told[0], told[1]), both);
+        assert_eq!(plan.gbuffer.surface.anisotropy, both.0);
+        assert_eq!(
+            plan.bounce.expect("a bounce").rsm.surface.anisotropy,
+            both.1
+        );
+        both
+    };
+    let stretched = |settings: &str| {
+        let mut shot = shot(settings);
+        for material in &mut shot.scene.materials {
+            material.anisotropy = 0.5;
+        }
+        shot
+    };
+    assert_eq!(runs(&shot("")), (false, false));
+    assert_eq!(runs(&stretched("")), (true, true));
+    assert_eq!(runs(&matte(stretched(""))), (false, false));
+    assert_eq!(runs(&stretched("emission=sg")), (true, false));
+    assert_eq!(runs(&stretched("method=vpl emission=sg")), (true, true));
+    let frame = stretched("").frame();
+    assert_eq!(frame.gbuffer.tangent.len(), frame.gbuffer.triangle.len());
+    assert!(shot("").frame().gbuffer.tangent.is_empty());
+}
+
+#[test]
 fn without_lights_only_the_camera_reads_surfaces() {
     let mut dark = Shot::of(vsgl_tests::surfaces::everything(true, 4.0));
     dark.lights.clear();

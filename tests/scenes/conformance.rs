@@ -173,10 +173,6 @@ const EXPECTED: &[(&str, Expected)] = &[
         Warned("lights without intensity"),
     ),
     (
-        "khronos/AnisotropyStrengthTest/AnisotropyStrengthTest.glb",
-        NotYet("KHR_materials_anisotropy", "no anisotropy"),
-    ),
-    (
         "khronos/TextureEncodingTest/TextureEncodingTest.glb",
         NotYet("alpha masks", "no alpha masks"),
     ),

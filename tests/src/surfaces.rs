@@ -95,6 +95,8 @@ pub fn everything(tangents: bool, tiles: f32) -> Scene {
             base_color_texture: Some(used(0, 0)),
             metallic_roughness_texture: Some(used(1, 1)),
             normal_texture: Some(used(2, 0)),
+            anisotropy: 0.7,
+            anisotropy_rotation: 0.6,
             ..base.clone()
         },
         Material {
@@ -111,6 +113,7 @@ pub fn everything(tangents: bool, tiles: f32) -> Scene {
         Material {
             emission: [0.3, 0.6, 0.9],
             double_sided: true,
+            anisotropy: 1.0,
             ..base.clone()
         },
         Material {
@@ -128,6 +131,8 @@ pub fn everything(tangents: bool, tiles: f32) -> Scene {
         },
         Material {
             metallic_roughness_texture: Some(used(1, 7)),
+            anisotropy: 0.9,
+            anisotropy_texture: Some(used(1, 2)),
             ..base.clone()
         },
     ];

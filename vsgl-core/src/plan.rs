@@ -36,8 +36,6 @@ pub struct Reason {
 pub struct GBufferPlan {
     /// Write the specular columns.
     pub glossy: bool,
-    /// Write tangents and the second roughness.
-    pub anisotropic: bool,
     /// What is read of surfaces.
     pub surface: SurfacePlan,
     /// What decides which triangle a sample sees.
@@ -55,6 +53,8 @@ pub struct SurfacePlan {
     pub colors: bool,
     /// Whether it is one that reflects nothing.
     pub unlit: bool,
+    /// Tangents and the second roughness, into their column.
+    pub anisotropy: bool,
     /// What it sends by itself, into the column of the G-buffer.
     pub emission: bool,
 }
@@ -77,8 +77,6 @@ pub struct RsmPlan {
     pub size: u32,
     /// Write the specular columns.
     pub glossy: bool,
-    /// Write tangents and the second roughness.
-    pub anisotropic: bool,
     /// What is read of surfaces.
     pub surface: SurfacePlan,
 }
@@ -185,7 +183,7 @@ impl Plan {
             && reasons.decide(
                 "two roughnesses of the receivers",
                 &[(
-                    facts.anisotropic_receivers,
+                    facts.seen.anisotropy,
                     "no anisotropic surface in front of the camera",
                 )],
                 "anisotropic surfaces in front of the camera",
@@ -195,7 +193,7 @@ impl Plan {
                 "two roughnesses of the lights",
                 &[
                     (
-                        facts.anisotropic_senders,
+                        facts.sent.anisotropy,
                         "no anisotropic surface within reach of the lights",
                     ),
                     (
@@ -205,7 +203,8 @@ impl Plan {
                 ],
                 "anisotropic surfaces within reach of the lights",
             );
-        let (seen, sent) = surfaces(facts, lit, &mut reasons);
+        let (mut seen, mut sent) = surfaces(facts, lit, &mut reasons);
+        (seen.anisotropy, sent.anisotropy) = (stretched, stretching);
         if settings.emission == Emission::Cosine && settings.glossy == GlossyForm::Asg2013 {
             return Err(Error::setting(
                 "glossy",
@@ -239,7 +238,6 @@ impl Plan {
             rsm: RsmPlan {
                 size,
                 glossy: senders,
-                anisotropic: stretching,
                 surface: sent,
             },
             pdf: samples.then_some(PdfPlan {
@@ -283,7 +281,6 @@ impl Plan {
         );
         let gbuffer = GBufferPlan {
             glossy: receivers,
-            anisotropic: stretched,
             surface: seen,
             primary: settings.primary,
         };
@@ -344,6 +341,7 @@ fn surfaces(facts: &SceneFacts, lit: bool, reasons: &mut Reasons) -> (SurfacePla
         colors: colors[i],
         unlit: unlit[i],
         emission: emission[i],
+        ..SurfacePlan::default()
     };
     (plan(0), plan(1))
 }

@@ -65,6 +65,11 @@ pub fn kernels() -> Vec<KernelId> {
 /// # Errors
 /// [`Error::Setting`] where settings contradict each other.
 pub fn host_plan(settings: &Settings, lights: usize, glossy: bool) -> Result<Plan> {
+    // What hosts import has one roughness.
+    let surfaces = SurfaceFacts {
+        anisotropy: false,
+        ..SurfaceFacts::ALL
+    };
     let facts = SceneFacts {
         triangles: 1,
         lights,
@@ -72,11 +77,8 @@ pub fn host_plan(settings: &Settings, lights: usize, glossy: bool) -> Result<Pla
         glossy_senders: glossy,
         reflecting_senders: true,
         glossy_receivers: glossy,
-        // Hosts' textures have one roughness.
-        anisotropic_senders: false,
-        anisotropic_receivers: false,
-        seen: SurfaceFacts::ALL,
-        sent: SurfaceFacts::ALL,
+        seen: surfaces,
+        sent: surfaces,
         bounds: (Vec3::ZERO, Vec3::ZERO),
     };
     Plan::new(&facts, settings)

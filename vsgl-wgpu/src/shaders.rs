@@ -55,6 +55,7 @@ pub const MODULES: &[(&str, &str)] = modules![
     "math/elementary",
     "math/moments",
     "math/vec",
+    "phase/anisotropy",
     "phase/cluster",
     "phase/direct",
     "phase/facing",

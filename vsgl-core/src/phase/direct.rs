@@ -1,7 +1,9 @@
 //! Light of the lights themselves at one receiver.
 
 use super::facing::lift;
-use super::shade::{Colors, Incoming, Receiver, fresnel_weight, glossy_point, lambert_constant};
+use super::shade::{
+    Colors, Incoming, Receiver, anisotropic_point, fresnel_weight, glossy_point, lambert_constant,
+};
 use crate::data::{LightRecord, SceneData};
 use crate::geom::{Ray, any_hit};
 use crate::math::vec::normalize;
@@ -36,17 +38,22 @@ pub fn incoming(light: &LightRecord, position: Vec3) -> Incoming {
 
 /// Radiance to the eye from one light \[W/(m² sr)\], with a shadow ray where it would shine.
 ///
-/// `facing` is the geometric normal on the side of the eye.
+/// `facing` is the geometric normal on the side of the eye; `anisotropic` whether receivers have two roughnesses.
 pub fn radiance(
     scene: &SceneData,
     light: &LightRecord,
     receiver: &Receiver,
     facing: Vec3,
     colors: &Colors,
+    anisotropic: bool,
 ) -> Vec3 {
     let incoming = incoming(light, receiver.position);
     let lambert = lambert_constant(&incoming, receiver) * std::f32::consts::FRAC_1_PI;
-    let specular = glossy_point(&incoming, receiver);
+    let specular = if anisotropic {
+        anisotropic_point(&incoming, receiver)
+    } else {
+        glossy_point(&incoming, receiver)
+    };
     let Colors { albedo, f0, f90 } = *colors;
     let fresnel = f0 + (Vec3::splat(f90) - f0) * fresnel_weight(&incoming, receiver);
     let reflected = incoming.strength * (albedo * lambert + fresnel * specular);

@@ -85,7 +85,11 @@ impl GBuffer {
             } else {
                 Vec::new()
             },
-            tangent: Vec::new(),
+            tangent: if plan.surface.anisotropy {
+                column(|s| s.surface.tangent.extend(s.surface.across).to_array())
+            } else {
+                Vec::new()
+            },
             emission: if emission {
                 samples.iter().map(|s| s.surface.emission).collect()
             } else {

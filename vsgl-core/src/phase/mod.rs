@@ -2,6 +2,7 @@
 //!
 //! Backends loop over these functions, or repeat them word for word in their own language.
 
+pub mod anisotropy;
 pub mod cluster;
 pub mod direct;
 pub mod facing;

@@ -38,13 +38,9 @@ pub fn tangent(
     place: &Place,
     normal: Vec3,
 ) -> (Vec3, f32) {
-    if let Some(t) = scene.corner_tangent.get(place.triangle as usize) {
-        let corners = [t[0], t[1], t[2], t[4], t[5], t[6], t[8], t[9], t[10]];
-        let along = interpolate(&corners, place.u, place.v);
-        let tangent = along - normal * normal.dot(along);
-        if tangent.dot(tangent) > TANGENT_MIN {
-            return (normalize(tangent), if t[3] < 0.0 { -1.0 } else { 1.0 });
-        }
+    let of_mesh = tangent_of_mesh(scene, place, normal);
+    if of_mesh.0 != Vec3::ZERO {
+        return of_mesh;
     }
     let (_, ab, ac) = corners(&scene.corner[place.triangle as usize]);
     let [_, b, c] = texture::corners(scene, record, place.triangle);
@@ -57,6 +53,19 @@ pub fn tangent(
     let handed = if turned == flipped { -1.0 } else { 1.0 };
     let none = (b[0] * c[1] == b[1] * c[0]) | (tangent.dot(tangent) <= TANGENT_MIN);
     (if none { Vec3::ZERO } else { normalize(tangent) }, handed)
+}
+
+/// Unit tangent of the mesh at right angles to `normal`, and the sign of the bitangent; zero where there is none.
+pub fn tangent_of_mesh(scene: &SceneData, place: &Place, normal: Vec3) -> (Vec3, f32) {
+    if let Some(t) = scene.corner_tangent.get(place.triangle as usize) {
+        let corners = [t[0], t[1], t[2], t[4], t[5], t[6], t[8], t[9], t[10]];
+        let along = interpolate(&corners, place.u, place.v);
+        let tangent = along - normal * normal.dot(along);
+        if tangent.dot(tangent) > TANGENT_MIN {
+            return (normalize(tangent), if t[3] < 0.0 { -1.0 } else { 1.0 });
+        }
+    }
+    (Vec3::ZERO, 1.0)
 }
 
 /// A mapped normal that faces the viewer of a ray along `direction`: one that would face away, or stand at less than

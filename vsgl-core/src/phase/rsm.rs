@@ -202,6 +202,8 @@ pub struct Texel {
     pub specular: [f32; 4],
     /// rgb: arriving flux times `F90` \[W\]; w: luminance of the flux that the specular part reflects \[W\].
     pub grazing: [f32; 4],
+    /// xyz: unit tangent that `alpha` belongs to; w: `alpha` across it. Zero where the plan has no anisotropy.
+    pub tangent: [f32; 4],
 }
 
 impl Texel {
@@ -212,6 +214,7 @@ impl Texel {
         diffuse: [0.0; 4],
         specular: [0.0, 0.0, 0.0, 1.0],
         grazing: [0.0; 4],
+        tangent: [0.0; 4],
     };
 }
 
@@ -250,7 +253,13 @@ pub fn texel(
         (side * side, length * facing)
     };
     let area = across / slant;
-    let albedo = ggx_albedo(surface.normal.dot(light), surface.alpha);
+    // Of two roughnesses their geometric mean.
+    let alpha = if plan.surface.anisotropy {
+        (surface.alpha * surface.across).sqrt()
+    } else {
+        surface.alpha
+    };
+    let albedo = ggx_albedo(surface.normal.dot(light), alpha);
     let f0 = Vec3::from_array(surface.f0) * flux;
     let f90 = flux * surface.f90;
     Texel {
@@ -262,12 +271,14 @@ pub fn texel(
             .to_array(),
         specular: f0.extend(surface.alpha).to_array(),
         grazing: f90.extend(luminance(albedo.weigh(f0, f90))).to_array(),
+        tangent: surface.tangent.extend(surface.across).to_array(),
     }
 }
 
 impl Rsm {
     /// Columns from texels, map after map; the specular columns only where the plan has them.
-    pub fn from_texels(size: u32, map: Vec<MapRecord>, texels: &[Texel], glossy: bool) -> Self {
+    pub fn from_texels(size: u32, map: Vec<MapRecord>, texels: &[Texel], plan: &RsmPlan) -> Self {
+        let (glossy, anisotropy) = (plan.glossy, plan.surface.anisotropy);
         let column = |f: fn(&Texel) -> [f32; 4]| texels.iter().map(f).collect::<Vec<_>>();
         let specular = |f: fn(&Texel) -> [f32; 4]| if glossy { column(f) } else { Vec::new() };
         Self {
@@ -280,7 +291,11 @@ impl Rsm {
             diffuse: column(|t| t.diffuse),
             specular: specular(|t| t.specular),
             grazing: specular(|t| t.grazing),
-            tangent: Vec::new(),
+            tangent: if anisotropy {
+                column(|t| t.tangent)
+            } else {
+                Vec::new()
+            },
         }
     }
 

@@ -1,5 +1,6 @@
 //! The surface at a hit: where it is, which way it faces, how it reflects.
 
+use super::anisotropy::{self, Stretch};
 use super::footprint::Place;
 use super::{normal_map, texture};
 use crate::data::{DOUBLE_SIDED, MaterialRecord, NO_TEXTURE, SceneData, UNLIT};
@@ -27,8 +28,12 @@ pub struct Surface {
     pub f0: [f32; 3],
     /// Specular reflectance at grazing incidence.
     pub f90: f32,
-    /// GGX roughness `alpha`, at least [`ALPHA_MIN`].
+    /// GGX roughness `alpha`, at least [`ALPHA_MIN`]; along the tangent where anisotropy is read.
     pub alpha: f32,
+    /// Unit direction in the surface that `alpha` belongs to. Zero where anisotropy is not read; likewise `across`.
+    pub tangent: Vec3,
+    /// GGX roughness across the tangent.
+    pub across: f32,
     /// Radiance that it sends to the viewer by itself \[W/(m² sr)\].
     pub emission: [f32; 3],
 }
@@ -98,6 +103,17 @@ pub fn at_hit(scene: &SceneData, place: &Place, direction: Vec3, reads: &Surface
     if unlit {
         (base, metallic, specular) = ([0.0; 3], 0.0, 0.0);
     }
+    let alpha = (roughness * roughness).max(ALPHA_MIN);
+    let stretch = if reads.anisotropy {
+        let normals = (smooth, normal);
+        let textures = reads.textures && textures;
+        anisotropy::stretch(scene, material, place, normals, alpha, textures)
+    } else {
+        Stretch {
+            along: alpha,
+            ..Stretch::default()
+        }
+    };
     let dielectric = reflectance.map(|c| c.min(1.0) * specular);
     Surface {
         position,
@@ -107,7 +123,9 @@ pub fn at_hit(scene: &SceneData, place: &Place, direction: Vec3, reads: &Surface
         dielectric_f90: specular,
         f0: std::array::from_fn(|i| mix(dielectric[i], base[i], metallic)),
         f90: mix(specular, 1.0, metallic),
-        alpha: (roughness * roughness).max(ALPHA_MIN),
+        alpha: stretch.along,
+        tangent: stretch.tangent,
+        across: stretch.across,
         emission,
     }
 }

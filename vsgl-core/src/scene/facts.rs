@@ -18,10 +18,6 @@ pub struct SceneFacts {
     pub reflecting_senders: bool,
     /// Some triangle that the camera may see is glossy.
     pub glossy_receivers: bool,
-    /// A surface that the lights may reach has two roughnesses.
-    pub anisotropic_senders: bool,
-    /// A surface that the camera may see has two roughnesses.
-    pub anisotropic_receivers: bool,
     /// What is to be read of triangles that the camera may see.
     pub seen: SurfaceFacts,
     /// What is to be read of triangles that the lights may reach, and that reflect anything.
@@ -41,6 +37,8 @@ pub struct SurfaceFacts {
     pub colors: bool,
     /// Is unlit.
     pub unlit: bool,
+    /// Has two roughnesses.
+    pub anisotropy: bool,
     /// Sends light by itself.
     pub emission: bool,
 }
@@ -52,16 +50,19 @@ impl SurfaceFacts {
         normal_maps: true,
         colors: true,
         unlit: true,
+        anisotropy: true,
         emission: true,
     };
 
     fn of(material: &Material, colors: bool) -> Self {
         let Material { unlit, .. } = *material;
         let emission = !unlit && material.emission != [0.0; 3];
+        let anisotropy = !unlit && material.anisotropy > 0.0 && material.is_glossy();
         let read = |&slot: &Slot| match slot {
             Slot::BaseColor => true,
             Slot::Emissive => emission,
-            Slot::Normal | Slot::Anisotropy => false,
+            Slot::Normal => false,
+            Slot::Anisotropy => anisotropy,
             Slot::MetallicRoughness | Slot::Specular | Slot::SpecularColor => !unlit,
         };
         let mut read = Slot::ALL.iter().filter(|slot| read(slot));
@@ -70,6 +71,7 @@ impl SurfaceFacts {
             normal_maps: !unlit && material.normal_texture.is_some(),
             colors,
             unlit,
+            anisotropy,
             emission,
         }
     }
@@ -81,6 +83,7 @@ impl SurfaceFacts {
             normal_maps: self.normal_maps || other.normal_maps,
             colors: self.colors || other.colors,
             unlit: self.unlit || other.unlit,
+            anisotropy: self.anisotropy || other.anisotropy,
             emission: self.emission || other.emission,
         }
     }
@@ -117,8 +120,6 @@ impl SceneFacts {
             glossy_senders: false,
             reflecting_senders: false,
             glossy_receivers: false,
-            anisotropic_senders: false,
-            anisotropic_receivers: false,
             seen: SurfaceFacts::default(),
             sent: SurfaceFacts::default(),
             bounds: scene.bounds(),

@@ -15,5 +15,5 @@ pub(crate) fn run(scene: &SceneData, lights: &[Light], plan: &RsmPlan) -> Rsm {
         (0..size).map(move |x| texel(scene, map, size, x, y, plan))
     };
     let texels: Vec<Texel> = (0..rows).into_par_iter().flat_map_iter(row).collect();
-    Rsm::from_texels(size, maps, &texels, plan.glossy)
+    Rsm::from_texels(size, maps, &texels, plan)
 }

@@ -161,7 +161,9 @@ impl Shader<'_> {
             }
             if hit[lane] {
                 let colors = Colors::of(self.gbuffer, index(lane));
-                let one = |light| direct::radiance(self.scene, light, receiver, facing, &colors);
+                let two = self.plan.anisotropic_receivers;
+                let one =
+                    |light| direct::radiance(self.scene, light, receiver, facing, &colors, two);
                 let sum = self
                     .lights
                     .iter()

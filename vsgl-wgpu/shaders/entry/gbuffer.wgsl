@@ -6,6 +6,7 @@ override TEXTURES: bool = true;
 override NORMAL_MAPS: bool = true;
 override COLORS: bool = true;
 override UNLIT_ONES: bool = true;
+override ANISOTROPY: bool = true;
 override EMISSION: bool = true;
 
 struct Params {
@@ -21,7 +22,7 @@ struct Params {
 @group(0) @binding(4) var texels: texture_2d_array<u32>;
 @group(0) @binding(5) var<storage, read> triangle: array<u32>;
 @group(0) @binding(6) var<storage, read_write> triangle_out: array<u32>;
-// Columns position, normal, diffuse, specular, one after the other.
+// Columns position, normal, diffuse, specular, tangent, one after the other.
 @group(0) @binding(7) var<storage, read_write> surface_out: array<vec4<f32>>;
 @group(0) @binding(8) var<storage, read_write> grazing_out: array<f32>;
 @group(0) @binding(9) var<storage, read_write> emission_out: array<f32>;
@@ -69,6 +70,9 @@ fn surface(
     if GLOSSY {
         surface_out[3u * count + i] = vec4(seen.f0, seen.alpha);
         grazing_out[i] = seen.f90;
+    }
+    if ANISOTROPY {
+        surface_out[4u * count + i] = vec4(seen.tangent, seen.across);
     }
     if EMISSION {
         emission_out[3u * i] = seen.emission.x;

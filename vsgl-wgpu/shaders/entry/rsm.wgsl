@@ -6,6 +6,7 @@ override TEXTURES: bool = true;
 override NORMAL_MAPS: bool = true;
 override COLORS: bool = true;
 override UNLIT_ONES: bool = true;
+override ANISOTROPY: bool = true;
 // Maps have no place for it.
 const EMISSION: bool = false;
 
@@ -27,7 +28,7 @@ struct Params {
 @group(0) @binding(4) var texels: texture_2d_array<u32>;
 @group(0) @binding(5) var<storage, read> triangle: array<u32>;
 @group(0) @binding(6) var<storage, read_write> triangle_out: array<u32>;
-// Columns position, normal, diffuse, specular, grazing, one after the other.
+// Columns position, normal, diffuse, specular, grazing, tangent, one after the other.
 @group(0) @binding(7) var<storage, read_write> texel_out: array<vec4<f32>>;
 @group(0) @binding(8) var<storage, read_write> map_out: array<MapRecord>;
 
@@ -75,5 +76,8 @@ fn surface(
     if GLOSSY {
         texel_out[3u * params.count + at] = seen.specular;
         texel_out[4u * params.count + at] = seen.grazing;
+    }
+    if ANISOTROPY {
+        texel_out[5u * params.count + at] = seen.tangent;
     }
 }

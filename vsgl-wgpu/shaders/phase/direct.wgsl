@@ -27,7 +27,12 @@ fn direct_radiance(
 ) -> vec3<f32> {
     let incoming = direct_incoming(light, receiver.position);
     let lambert = shade_lambert_constant(incoming, receiver) * FRAC_1_PI;
-    let specular = shade_glossy_point(incoming, receiver);
+    var specular = 0.0;
+    if ANISOTROPIC_RECEIVERS {
+        specular = shade_anisotropic_point(incoming, receiver);
+    } else {
+        specular = shade_glossy_point(incoming, receiver);
+    }
     let fresnel = colors.f0 + (vec3(colors.f90) - colors.f0) * shade_fresnel_weight(incoming, receiver);
     let reflected = incoming.strength * (colors.albedo * lambert + fresnel * specular);
     if all(reflected == vec3(0.0)) {

@@ -21,14 +21,9 @@ fn normal_map_mapped(material: MaterialRecord, place: Place, smooth_normal: vec3
 
 // Unit tangent along increasing u of a texture, or zero; w: the sign of the bitangent.
 fn normal_map_tangent(record: TextureRecord, place: Place, normal: vec3<f32>) -> vec4<f32> {
-    if params.texels.corner_tangent != NO_WORDS {
-        let at = params.texels.corner_tangent + 12u * place.triangle;
-        let a = words_vec3(at);
-        let along = (a + (words_vec3(at + 4u) - a) * place.u) + (words_vec3(at + 8u) - a) * place.v;
-        let tangent = along - normal * dot(normal, along);
-        if dot(tangent, tangent) > TANGENT_MIN {
-            return vec4(vec_normalize(tangent), select(1.0, -1.0, words_f32(at + 3u) < 0.0));
-        }
+    let of_mesh = normal_map_tangent_of_mesh(place, normal);
+    if any(of_mesh.xyz != vec3(0.0)) {
+        return of_mesh;
     }
     let of_corner = corner[place.triangle];
     let first = vec3(of_corner[0], of_corner[1], of_corner[2]);
@@ -45,6 +40,20 @@ fn normal_map_tangent(record: TextureRecord, place: Place, normal: vec3<f32>) ->
     let handed = select(1.0, -1.0, turned == flipped);
     let none = b.x * c.y == b.y * c.x || dot(tangent, tangent) <= TANGENT_MIN;
     return vec4(select(vec_normalize(tangent), vec3(0.0), none), handed);
+}
+
+// Unit tangent of the mesh, or zero; w: the sign of the bitangent.
+fn normal_map_tangent_of_mesh(place: Place, normal: vec3<f32>) -> vec4<f32> {
+    if params.texels.corner_tangent != NO_WORDS {
+        let at = params.texels.corner_tangent + 12u * place.triangle;
+        let a = words_vec3(at);
+        let along = (a + (words_vec3(at + 4u) - a) * place.u) + (words_vec3(at + 8u) - a) * place.v;
+        let tangent = along - normal * dot(normal, along);
+        if dot(tangent, tangent) > TANGENT_MIN {
+            return vec4(vec_normalize(tangent), select(1.0, -1.0, words_f32(at + 3u) < 0.0));
+        }
+    }
+    return vec4(0.0, 0.0, 0.0, 1.0);
 }
 
 // A mapped normal that faces the viewer of a ray along `direction`.

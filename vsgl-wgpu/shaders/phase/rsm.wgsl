@@ -30,6 +30,7 @@ struct Texel {
     diffuse: vec4<f32>,
     specular: vec4<f32>,
     grazing: vec4<f32>,
+    tangent: vec4<f32>,
 }
 
 fn rsm_empty() -> Texel {
@@ -38,6 +39,7 @@ fn rsm_empty() -> Texel {
         vec4(0.0, 0.0, 1.0, 0.0),
         vec4(0.0),
         vec4(0.0, 0.0, 0.0, 1.0),
+        vec4(0.0),
         vec4(0.0),
     );
 }
@@ -58,7 +60,11 @@ fn rsm_texel(map: MapRecord, size: u32, ray: Ray, sent: vec3<f32>, hit: Hit) -> 
     let across = select(side * side, map.solid_angle, parallel);
     let slant = select(length * facing, facing, parallel);
     let area = across / slant;
-    let albedo = albedo_ggx_albedo(dot(seen.normal, light), seen.alpha);
+    var alpha = seen.alpha;
+    if ANISOTROPY {
+        alpha = sqrt(seen.alpha * seen.across);
+    }
+    let albedo = albedo_ggx_albedo(dot(seen.normal, light), alpha);
     let f0 = seen.f0 * flux;
     let f90 = flux * seen.f90;
     return Texel(
@@ -67,5 +73,6 @@ fn rsm_texel(map: MapRecord, size: u32, ray: Ray, sent: vec3<f32>, hit: Hit) -> 
         vec4(seen.diffuse * flux, seen.dielectric_f0),
         vec4(f0, seen.alpha),
         vec4(f90, vec_luminance(albedo_weigh(albedo, f0, f90))),
+        vec4(seen.tangent, seen.across),
     );
 }

@@ -1,8 +1,8 @@
-//! needs: data/words, math/vec, phase/footprint, phase/normal_map, phase/texture
+//! needs: data/words, math/vec, phase/anisotropy, phase/footprint, phase/normal_map, phase/texture
 // The surface at a hit. Twin of `vsgl-core/src/phase/surface.rs`.
 //
-// Reads `corner` and `corner_normal`, which the entry binds, and its constants TEXTURES, NORMAL_MAPS, COLORS, UNLIT_ONES and
-// EMISSION, which are the plan for surfaces.
+// Reads `corner` and `corner_normal`, which the entry binds, and its constants TEXTURES, NORMAL_MAPS, COLORS, UNLIT_ONES,
+// ANISOTROPY and EMISSION, which are the plan for surfaces.
 
 struct Surface {
     position: vec3<f32>,
@@ -13,6 +13,8 @@ struct Surface {
     f0: vec3<f32>,
     f90: f32,
     alpha: f32,
+    tangent: vec3<f32>,
+    across: f32,
     emission: vec3<f32>,
 }
 
@@ -79,6 +81,11 @@ fn surface_at_hit(place: Place, direction: vec3<f32>) -> Surface {
         metallic = 0.0;
         specular = 0.0;
     }
+    let alpha = max(roughness * roughness, ALPHA_MIN);
+    var stretch = Stretch(vec3(0.0), alpha, 0.0);
+    if ANISOTROPY {
+        stretch = anisotropy_stretch(record, place, smooth_normal, normal, alpha);
+    }
     let dielectric = min(reflectance, vec3(1.0)) * specular;
     return Surface(
         position,
@@ -88,7 +95,9 @@ fn surface_at_hit(place: Place, direction: vec3<f32>) -> Surface {
         specular,
         dielectric + (base - dielectric) * metallic,
         specular + (1.0 - specular) * metallic,
-        max(roughness * roughness, ALPHA_MIN),
+        stretch.along,
+        stretch.tangent,
+        stretch.across,
         emission,
     );
 }

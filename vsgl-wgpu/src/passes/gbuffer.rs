@@ -52,7 +52,7 @@ pub(crate) fn record(
     let (width, height) = view.samples();
     let count = u64::from(width) * u64::from(height);
     let glossy = if plan.glossy { count } else { 0 };
-    let stretched = if plan.anisotropic { count } else { 0 };
+    let stretched = if plan.surface.anisotropy { count } else { 0 };
     let emission = if plan.surface.emission { count } else { 0 };
     let made = WgpuRes::<GBuffer>::new(
         context,

@@ -39,12 +39,13 @@ fn flag(value: bool) -> f64 {
 
 /// What is read of surfaces, as constants of `phase/surface.wgsl`; without what reads textures where a plan made by hand asks for
 /// some that the scene has not.
-fn surface_constants(plan: &SurfacePlan, textures: bool) -> [Constant; 4] {
+fn surface_constants(plan: &SurfacePlan, textures: bool) -> [Constant; 5] {
     [
         ("TEXTURES", flag(plan.textures && textures)),
         ("NORMAL_MAPS", flag(plan.normal_maps && textures)),
         ("COLORS", flag(plan.colors)),
         ("UNLIT_ONES", flag(plan.unlit)),
+        ("ANISOTROPY", flag(plan.anisotropy)),
     ]
 }
 

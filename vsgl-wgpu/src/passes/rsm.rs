@@ -50,7 +50,7 @@ pub(crate) fn record(
     let side = u64::from(plan.size) * u64::from(plan.size);
     let count = side * maps.len() as u64;
     let glossy = if plan.glossy { count } else { 0 };
-    let stretched = if plan.anisotropic { count } else { 0 };
+    let stretched = if plan.surface.anisotropy { count } else { 0 };
     let made = WgpuRes::<Rsm>::new(
         context,
         vec![plan.size, maps.len() as u32],

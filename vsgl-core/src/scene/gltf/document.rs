@@ -10,6 +10,7 @@ const SUPPORTED: &[&str] = &[
     super::instancing::NAME,
     "EXT_texture_webp",
     "KHR_lights_punctual",
+    "KHR_materials_anisotropy",
     "KHR_materials_emissive_strength",
     "KHR_materials_ior",
     "KHR_materials_specular",
