@@ -97,12 +97,6 @@ fn nonsense_in_flags_is_code_2() {
         "render sample:many-lights:0 -o b.png",
         &["many-lights"],
     );
-    refuses(
-        &folder,
-        2,
-        "render sample:many-lights:16 --rsm 4096 -o b.png",
-        &["--rsm", "texels"],
-    );
     refuses(&folder, 2, "info --lights 5", &["SCENE"]);
     refuses(&folder, 2, "nonsense", &["nonsense"]);
 }

@@ -180,5 +180,5 @@ fn limits_are_changed_by_their_names() {
         .run("info sample:cornell --limit triangles=1")
         .failed(2);
     let help = folder.run("info --help").ok();
-    assert!(help.contains("texels=134217728"), "{help}");
+    assert!(help.contains("texels=67108864"), "{help}");
 }

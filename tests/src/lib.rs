@@ -7,4 +7,5 @@ pub mod measure;
 pub mod random;
 pub mod render;
 pub mod surfaces;
+pub mod usage;
 pub mod view;

@@ -9,6 +9,7 @@ pub use repeat::settings_json;
 use crate::args::{SceneArgs, SettingsArgs, Size, ViewArgs};
 use crate::exit::{Failure, Result};
 use std::path::Path;
+use vsgl_core::data::SceneData;
 use vsgl_core::plan::Plan;
 use vsgl_core::render::View;
 use vsgl_core::scene::{Light, Scene, SceneFacts, gltf, samples};
@@ -40,6 +41,8 @@ pub struct Job {
     pub seed: u64,
     /// What the user should know, a line each.
     pub warnings: Vec<String>,
+    /// Most triangles in one place.
+    overlap: u64,
     /// Whether the scene's own lights shine; they are the first.
     own_lights: bool,
     /// Arguments that choose the same scene, lights and camera again.
@@ -69,7 +72,7 @@ impl Job {
         let settings = choose::settings(settings, defaults.lights)?;
         let size = view.size.unwrap_or(defaults.size);
         let name = scene.scene.clone().unwrap_or_else(|| DEFAULT_SCENE.into());
-        let mut read = read_scene(&name, scene)?;
+        let (mut read, overlap) = read_scene(&name, scene)?;
         if scene.only_added_lights {
             // What shines is a light of the file too.
             read.materials
@@ -87,7 +90,6 @@ impl Job {
             stride: view.stride.unwrap_or(1),
         }
         .checked()?;
-        check_maps(lights.len(), settings.rsm)?;
         let facts = SceneFacts::new(&read, &lights, &camera);
         let plan = Plan::new(&facts, &settings)?;
         if facts.triangles > 0 && lights.is_empty() {
@@ -99,6 +101,7 @@ impl Job {
             warnings.push(format!("no light: {shown}; add one with --spot"));
         }
         Ok(Self {
+            overlap,
             own_lights: !scene.only_added_lights,
             scene_words: repeat::scene_words(&name, scene),
             name,
@@ -124,6 +127,16 @@ impl Job {
         };
         names.get(index).map_or("", String::as_str)
     }
+
+    /// The scene as the phases read it.
+    ///
+    /// # Errors
+    /// [`Failure::Input`] for a scene that would take for ever to draw.
+    pub fn prepared(&self) -> Result<SceneData> {
+        let data = SceneData::new(&self.scene);
+        data.check_overlap(&self.name, self.overlap)?;
+        Ok(data)
+    }
 }
 
 /// What is taken where nothing is given.
@@ -145,34 +158,21 @@ impl Default for Defaults {
     }
 }
 
-/// Most texels of all reflective shadow maps together: about 6 GB with all that is made of them.
-const TEXELS_MAX: u64 = 1 << 25;
-
-/// Refuses more maps than fit into memory.
-fn check_maps(lights: usize, side: u32) -> Result<()> {
-    let texels = (lights as u64).saturating_mul(u64::from(side).pow(2));
-    if texels <= TEXELS_MAX {
-        return Ok(());
-    }
-    let fitting = (TEXELS_MAX as f64 / lights as f64).sqrt() as u32;
-    Err(Failure::Usage(format!(
-        "{lights} lights with --rsm {side} are {texels} texels, where {TEXELS_MAX} fit; give --rsm {fitting} or fewer lights"
-    )))
-}
-
-fn read_scene(name: &str, args: &SceneArgs) -> Result<Scene> {
+/// The scene, and how many triangles may lie in one place.
+fn read_scene(name: &str, args: &SceneArgs) -> Result<(Scene, u64)> {
     let mut options = gltf::Options::default();
     for (limit, value) in &args.limit {
         options.limits.set(limit, value)?;
     }
     options.scene.clone_from(&args.part);
     let Some(sample) = name.strip_prefix("sample:") else {
-        return Ok(gltf::load_with(Path::new(name), &options)?);
+        let scene = gltf::load_with(Path::new(name), &options)?;
+        return Ok((scene, options.limits.overlap));
     };
     if args.part.is_some() || !args.limit.is_empty() {
         return Err(Failure::Usage(
             "--scene and --limit are about files; leave them out with a sample".into(),
         ));
     }
-    Ok(samples::by_name(sample)?)
+    Ok((samples::by_name(sample)?, options.limits.overlap))
 }

@@ -25,11 +25,19 @@ mod text;
 use clap::Parser;
 use exit::Failure;
 use std::process::ExitCode;
+use vsgl_core::scene::gltf;
 
 /// Reads the command line, does what it says, and reports a failure on standard error.
 pub fn main() -> ExitCode {
     // Wrong arguments, `--help` and `--version` end here, with the codes of `exit`.
     let cli = args::Cli::parse();
+    let usual = std::panic::take_hook();
+    std::panic::set_hook(Box::new(move |info| {
+        // What makes a decoder panic is told as an error of its file.
+        if std::thread::current().name() != Some(gltf::IMAGE_THREAD) {
+            usual(info);
+        }
+    }));
     // A panic is a fault of this program. Unwinding has removed partial files and printed the place by now.
     let ran = std::panic::catch_unwind(|| commands::run(cli));
     let ran = ran.unwrap_or_else(|_| Err(Failure::Internal("it panicked, see above".into())));

@@ -1,6 +1,7 @@
 //! Text for people: standard streams that may be closed, numbers of a readable length, quoted commands.
 
 use crate::exit::{Failure, Result};
+use std::borrow::Cow;
 use std::io::{ErrorKind, Write};
 
 /// Writes to standard output. A reader that has gone (`| head`) is no failure.
@@ -8,6 +9,7 @@ use std::io::{ErrorKind, Write};
 /// # Errors
 /// [`Failure::Output`] if the stream fails otherwise.
 pub(crate) fn print(text: &str) -> Result<()> {
+    let text = harmless(text, |_| "\u{fffd}".into());
     let mut stdout = std::io::stdout().lock();
     let written = stdout
         .write_all(text.as_bytes())
@@ -25,11 +27,36 @@ pub(crate) fn print(text: &str) -> Result<()> {
 /// # Errors
 /// As [`print`].
 pub(crate) fn print_json(document: &serde_json::Value) -> Result<()> {
-    print(&format!("{document:#}\n"))
+    let text = format!("{document:#}\n");
+    // In a document such characters are inside strings only.
+    let text = harmless(&text, |c| format!("\\u{:04x}", u32::from(c)));
+    print(&text)
+}
+
+/// The text with something else in the place of what a terminal would obey: names come from files that anyone may have
+/// made.
+fn harmless(text: &str, instead: impl Fn(char) -> String) -> Cow<'_, str> {
+    let obeyed = |c: char| {
+        (c.is_control() && !matches!(c, '\n' | '\t'))
+            || matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+    };
+    if !text.contains(obeyed) {
+        return Cow::Borrowed(text);
+    }
+    let mut clean = String::with_capacity(text.len());
+    for c in text.chars() {
+        if obeyed(c) {
+            clean += &instead(c);
+        } else {
+            clean.push(c);
+        }
+    }
+    Cow::Owned(clean)
 }
 
 /// Writes a line to standard error; if that is closed there is nobody to tell.
 pub(crate) fn warn(line: &str) {
+    let line = harmless(line, |_| "\u{fffd}".into());
     let _ = writeln!(std::io::stderr(), "{line}");
 }
 
@@ -82,6 +109,24 @@ mod tests {
         ] {
             assert_eq!(number(value), text);
         }
+    }
+
+    #[test]
+    fn what_a_terminal_obeys_is_replaced() {
+        let mark = |_: char| "?".to_owned();
+        assert_eq!(
+            harmless("a\u{1b}[2Jb\u{9b}c\u{202e}d\ne", mark),
+            "a?[2Jb?c?d\ne"
+        );
+        assert!(matches!(harmless("grün\n", mark), Cow::Borrowed(_)));
+        let name = serde_json::json!("\u{1b}\u{9b}\u{202e}");
+        let shown =
+            harmless(&name.to_string(), |c| format!("\\u{:04x}", u32::from(c))).into_owned();
+        assert_eq!(shown, r#""\u001b\u009b\u202e""#);
+        assert_eq!(
+            serde_json::from_str::<serde_json::Value>(&shown).ok(),
+            Some(name)
+        );
     }
 
     #[test]

@@ -1,7 +1,8 @@
 //! The scene as the phases read it.
 
 use super::columns::{Columns, Element, Scalar, columns};
-use crate::geom::BvhNode;
+use crate::error::{Error, Result};
+use crate::geom::{self, BvhNode};
 use glam::Vec3;
 
 /// Texture index of a material without texture.
@@ -57,6 +58,23 @@ columns! {
 }
 
 impl SceneData {
+    /// Refuses a scene with more than `most` triangles in one place: each ray there would test them all, and the picture
+    /// would take thousands of times as long as it should.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] about `name`.
+    pub fn check_overlap(&self, name: &str, most: u64) -> Result<()> {
+        if geom::overlap(&self.node, most) <= most {
+            return Ok(());
+        }
+        Err(Error::Scene {
+            file: name.to_owned(),
+            place: "scene".into(),
+            problem: format!("more than {most} triangles lie in one place"),
+            remedy: "remove the copies, or raise the limit `overlap`".into(),
+        })
+    }
+
     /// Distance by which ray origins are lifted off surfaces \[m\].
     pub fn lift(&self) -> f32 {
         f32::from_bits(self.lift_bits)

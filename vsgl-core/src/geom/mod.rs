@@ -1,11 +1,13 @@
 //! Rays, triangles and the hierarchy over them.
 
 mod build;
+mod overlap;
 mod ray;
 mod traverse;
 mod triangle;
 
 pub use build::{Bvh, build};
+pub use overlap::overlap;
 pub use ray::Ray;
 pub use traverse::{BvhNode, Hit, LANES, SLAB_EXIT, STACK, any_hit, any_hit_block, closest_hit};
 pub use triangle::{Crossing, cross};

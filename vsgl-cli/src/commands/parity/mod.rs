@@ -11,7 +11,6 @@ use crate::progress::Progress;
 use crate::{interrupt, text};
 use picture::Pictures;
 use report::Report;
-use vsgl_core::data::SceneData;
 use vsgl_core::parity::{Origin, Party, Step, Subject, Tolerance, chain};
 use vsgl_core::settings::Primary;
 use vsgl_cpu::CpuBackend;
@@ -96,7 +95,7 @@ fn tiers(
     adapter: WgpuBackend,
     progress: &Progress,
 ) -> Result<Vec<Tier>> {
-    let scene = SceneData::new(&job.scene);
+    let scene = job.prepared()?;
     let compare = |tested: &WgpuBackend, tolerance: Tolerance| -> Result<Tier> {
         let reference = Party {
             backend: cpu,

@@ -14,7 +14,7 @@ use crate::{interrupt, text};
 use report::{Report, Seconds, Written};
 use serde_json::Value;
 use std::time::Instant;
-use vsgl_core::data::{Image, SceneData};
+use vsgl_core::data::Image;
 use vsgl_core::render::render;
 
 /// Renders and writes.
@@ -108,7 +108,7 @@ fn draw<B: Host>(
     out: &OutputArgs,
 ) -> Result<(Image, dump::Senders<B>, Seconds)> {
     let start = Instant::now();
-    let scene = backend.upload(SceneData::new(&job.scene))?;
+    let scene = backend.upload(job.prepared()?)?;
     let mut list = vec![("scene".to_owned(), start.elapsed().as_secs_f64())];
     let start = Instant::now();
     let progress = Progress::new(if out.quiet { When::Never } else { out.progress });

@@ -2,7 +2,7 @@
 
 use super::assemble::Geometry;
 use super::document::{Document, lookup};
-use super::fault::{Fault, Result};
+use super::fault::{Fault, Result, printable};
 use super::nodes::{LARGEST, Placed};
 use super::warnings::Warnings;
 use crate::scene::Camera;
@@ -49,7 +49,7 @@ pub(super) fn collect(
             continue;
         };
         let name = source.name.as_ref().or(place.node.name.as_ref());
-        found.push((index, name.cloned(), camera));
+        found.push((index, name.map(|name| printable(name)), camera));
     }
     found.sort_by_key(|&(index, ..)| index);
     let named = |(i, (_, name, camera)): (usize, (usize, Option<String>, Camera))| {

@@ -118,8 +118,10 @@ impl Document {
 
     /// Extensions that the file uses, and those of them that are not read.
     pub(super) fn extensions(&self) -> (Vec<String>, Vec<String>) {
-        let used = self.root.extensions_used.iter();
-        let ignored = ignored(&self.root);
+        /// More names help nobody.
+        const MOST: usize = 256;
+        let used = self.root.extensions_used.iter().take(MOST);
+        let ignored = ignored(&self.root).take(MOST);
         (
             used.map(|name| printable(name)).collect(),
             ignored.map(|name| printable(name)).collect(),

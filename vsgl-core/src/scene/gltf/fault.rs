@@ -45,7 +45,7 @@ impl Fault {
 
     /// The same about another file than the scene's own.
     pub(super) fn in_file(mut self, file: &Path) -> Self {
-        self.0.file = Some(file.display().to_string());
+        self.0.file = Some(shortened(&file.display().to_string(), 400));
         self
     }
 
@@ -72,16 +72,25 @@ impl Fault {
 
 /// A string of the file, fit for a message: short, and without characters that a terminal obeys.
 pub(super) fn printable(text: &str) -> String {
-    const LONGEST: usize = 120;
+    shortened(text, 120)
+}
+
+fn shortened(text: &str, longest: usize) -> String {
     let mut short: String = text
         .chars()
-        .take(LONGEST)
-        .map(|c| if c.is_control() { '\u{fffd}' } else { c })
+        .take(longest)
+        .map(|c| if obeyed(c) { '\u{fffd}' } else { c })
         .collect();
-    if text.chars().nth(LONGEST).is_some() {
+    if text.chars().nth(longest).is_some() {
         short.push('…');
     }
     short
+}
+
+/// Whether a terminal does something other than show the character: control characters, and those that turn the
+/// direction of text.
+fn obeyed(c: char) -> bool {
+    c.is_control() || matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
 
 /// The same between quotation marks.

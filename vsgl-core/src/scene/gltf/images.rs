@@ -10,8 +10,13 @@ use crate::scene::{ImageSource, Texture};
 use image::{ImageDecoder, ImageFormat, ImageReader};
 use std::borrow::Cow;
 use std::io::Cursor;
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
+
+/// Name of the threads that decode images. A panic there is caught and becomes an error; a program whose panic hook
+/// prints may want to leave it out.
+pub const THREAD: &str = "vsgl image";
 
 /// A JPEG file with more scans than this is built to keep a decoder busy; ordinary ones have about ten.
 const SCANS_MAX: usize = 100;
@@ -60,28 +65,46 @@ pub(super) fn decode(
         images.get(i).map(|image| (i, image))
     };
     let work = || -> Vec<_> {
+        let decoded = |image: &Encoded<'_>| sheltered(image.index, || image.decode());
         std::iter::from_fn(take)
-            .map(|(i, image)| (i, image.decode()))
+            .map(|(i, image)| (i, decoded(image)))
             .collect()
     };
-    let mut textures: Vec<(usize, Result<Texture>)> = thread::scope(|scope| {
-        let workers: Vec<_> = (1..threads.min(images.len()))
-            .map(|_| scope.spawn(work))
-            .collect();
-        let mut all = work();
-        for worker in workers {
-            match worker.join() {
-                Ok(done) => all.extend(done),
-                Err(panic) => std::panic::resume_unwind(panic),
-            }
-        }
-        all
-    });
+    let workers = threads.min(images.len());
+    let mut textures: Vec<(usize, Result<Texture>)> =
+        on_threads(workers, work).into_iter().flatten().collect();
     // The order of the list, whichever thread was first; so is the error that is told.
     textures.sort_by_key(|&(i, _)| i);
     let textures: Result<_> = textures.into_iter().map(|(_, texture)| texture).collect();
     let sources = images.iter().map(|image| image.source(document)).collect();
     Ok((textures?, sources))
+}
+
+/// What `work` returns on each of `count` threads with the name [`THREAD`].
+fn on_threads<T: Send>(count: usize, work: impl Fn() -> T + Sync) -> Vec<T> {
+    thread::scope(|scope| {
+        let spawn = |_| {
+            let named = thread::Builder::new().name(THREAD.into());
+            named.spawn_scoped(scope, &work)
+        };
+        let mut done = Vec::with_capacity(count);
+        let workers: Vec<_> = (0..count).map(spawn).collect();
+        for worker in workers {
+            match worker.map(|worker| worker.join()) {
+                Ok(Ok(result)) => done.push(result),
+                Ok(Err(panic)) => resume_unwind(panic),
+                // The system has no thread to spare.
+                Err(_) => done.push(work()),
+            }
+        }
+        done
+    })
+}
+
+/// Turns a panic of a decoder into an error: decoders are others' work, and some panic on broken images.
+fn sheltered<T>(index: usize, work: impl FnOnce() -> Result<T>) -> Result<T> {
+    catch_unwind(AssertUnwindSafe(work))
+        .unwrap_or_else(|_| Err(undecodable(index, "it makes the decoder fail")))
 }
 
 /// The bytes of an image, with format and size from its header.
@@ -121,8 +144,13 @@ fn encoded<'a>(
         ImageFormat::WebP => webp::texels(&bytes).map_err(|why| undecodable(index, why))?,
         _ => 0,
     };
-    let texels = texels(&bytes, format).map_err(|e| undecodable(index, &e.to_string()))?;
-    let texels = texels.max(inner);
+    if format == ImageFormat::Png {
+        check_palette(&bytes).map_err(|why| undecodable(index, &why))?;
+    }
+    let header = || texels(&bytes, format).map_err(|e| undecodable(index, &e.to_string()));
+    let texels = on_threads(1, || sheltered(index, header))
+        .remove(0)?
+        .max(inner);
     if format == ImageFormat::Jpeg
         && bytes.windows(2).filter(|w| w == b"\xff\xda").count() > SCANS_MAX
     {
@@ -137,6 +165,21 @@ fn encoded<'a>(
         format,
         texels,
     })
+}
+
+/// Refuses a palette of a length that makes the decoder panic (`png` 0.18).
+fn check_palette(bytes: &[u8]) -> std::result::Result<(), String> {
+    let mut rest = bytes.get(8..).unwrap_or_default();
+    while let Some((header, after)) = rest.split_first_chunk::<8>() {
+        let [a, b, c, d, kind @ ..] = *header;
+        let length = u32::from_be_bytes([a, b, c, d]) as usize;
+        if kind == *b"PLTE" && (length == 0 || length > 768 || !length.is_multiple_of(3)) {
+            return Err(format!("a palette of {length} bytes"));
+        }
+        // Four bytes of checksum follow.
+        rest = after.get(length.saturating_add(4)..).unwrap_or_default();
+    }
+    Ok(())
 }
 
 /// Texels by the header; those of 16 bits count twice.

@@ -44,13 +44,15 @@ macro_rules! limits {
 }
 
 limits! {
-    file_bytes = 512 << 20, "bytes of all files of the scene together";
-    objects = 1 << 20, "JSON objects: nodes, meshes, accessors and so on are one each";
-    triangles = 1 << 23, "triangles drawn, instances counted";
-    vertices = 1 << 23, "vertices drawn, instances counted; triangles without normals have three each";
-    displacements = 1 << 25, "displacements by morph targets with a weight: one for each vertex and target";
+    file_bytes = 256 << 20, "bytes of all files of the scene together";
+    objects = 1 << 18, "JSON objects: nodes, meshes, accessors and so on are one each";
+    triangles = 5 << 18, "triangles drawn, instances counted";
+    vertices = 1 << 22, "vertices drawn, instances counted; triangles without normals have three each";
+    displacements = 1 << 23, "displacements by morph targets with a weight: one for each vertex and target";
     joints = 1 << 16, "joints of all skins in use";
-    texels = 1 << 27, "texels of all images that materials use; those of 16 bits count twice";
+    lights = 1024, "lights";
+    overlap = 2048, "triangles in one place, each of which a ray there would test";
+    texels = 1 << 26, "texels of all images that materials use; those of 16 bits count twice";
 }
 
 impl Limits {

@@ -1,7 +1,7 @@
 //! Surfaces.
 
 use super::document::{Document, lookup};
-use super::fault::{Fault, Result};
+use super::fault::{Fault, Result, printable};
 use super::textures::{Sets, Textures, Use};
 use super::warnings::Warnings;
 use crate::scene::Material;
@@ -217,10 +217,10 @@ fn factors(
     let emission = color("emissiveFactor", source.emissive_factor.0, 1.0)?;
     let normal_scale = source.normal_texture.as_ref().map_or(1.0, |n| n.scale);
     Ok(Material {
-        name: source
-            .name
-            .clone()
-            .unwrap_or_else(|| format!("material {index}")),
+        name: match &source.name {
+            Some(name) => printable(name),
+            None => format!("material {index}"),
+        },
         base_color: color("baseColorFactor", [r, g, b], 1.0)?,
         alpha: number("baseColorFactor", alpha, 1.0)?,
         alpha_cutoff: match source.alpha_mode {

@@ -55,6 +55,7 @@ use files::Files;
 use std::path::Path;
 use warnings::Warnings;
 
+pub use images::THREAD as IMAGE_THREAD;
 pub use limits::Limits;
 pub use options::Options;
 
@@ -100,6 +101,13 @@ fn read(path: &Path, options: &Options) -> fault::Result<Scene> {
     let (textures, images) = images::decode(&document, &buffers, &files, &geometry.images, limits)?;
     let origin = geometry.origin;
     let (lights, light_names) = lights::collect(&document, placed, origin, &mut warnings)?;
+    if lights.len() as u64 > limits.lights {
+        return Err(fault::Fault::new(
+            "nodes",
+            format!("hold {} lights, more than {}", lights.len(), limits.lights),
+            "use fewer lights, or raise the limit `lights`",
+        ));
+    }
     let cameras = cameras::collect(&document, placed, &geometry, &mut warnings)?;
     let (extensions_used, extensions_ignored) = document.extensions();
     Ok(Scene {
