@@ -73,20 +73,8 @@ const EXPECTED: &[(&str, Expected)] = &[
         Refused("EXT_meshopt_compression"),
     ),
     (
-        "gltf-transform/DracoSparseMesh.gltf",
-        Refused("KHR_draco_mesh_compression"),
-    ),
-    (
-        "khronos/Box-Draco/Box.gltf",
-        Refused("KHR_draco_mesh_compression"),
-    ),
-    (
         "meshopt-JapaneseBridgeGarden/scene.glb",
         Refused("EXT_meshopt_compression"),
-    ),
-    (
-        "webp-draco-Room/room-transformed.glb",
-        Refused("`KHR_draco_mesh_compression`"),
     ),
     (
         "khronos/IridescenceSuzanne/IridescenceSuzanne.glb",

@@ -9,10 +9,18 @@ use gltf::json::{Index, buffer};
 
 /// An accessor of `N` components an element, as floating-point numbers.
 pub(super) struct Vectors<'a, const N: usize> {
-    elements: Elements<'a>,
+    source: Source<'a, N>,
+    kind: ComponentType,
     normalized: bool,
     /// Elements that a sparse accessor replaces, by rising index.
     replaced: Vec<(u32, [f32; N])>,
+}
+
+/// Where the numbers come from.
+enum Source<'a, const N: usize> {
+    View(Elements<'a>),
+    /// Unpacked, before integers become shares of their range.
+    Unpacked(Vec<[f32; N]>),
 }
 
 impl<'a, const N: usize> Vectors<'a, N> {
@@ -36,9 +44,30 @@ impl<'a, const N: usize> Vectors<'a, N> {
             ));
         }
         Ok(Self {
-            elements: Elements::of(buffers, accessor, kind, N, &here)?,
+            source: Source::View(Elements::of(buffers, accessor, kind, N, &here)?),
+            kind,
             normalized: accessor.normalized,
             replaced: replaced(buffers, accessor, kind, &here)?,
+        })
+    }
+
+    /// Elements that were packed, in the place of those of accessor `index`.
+    pub(super) fn unpacked(
+        document: &Document,
+        index: Index<Accessor>,
+        numbers: Vec<f32>,
+        place: impl FnOnce() -> String,
+    ) -> Result<Self> {
+        let accessors = &document.root.accessors;
+        let accessor = lookup(accessors, "accessors", index.value(), place)?;
+        let here = format!("accessors[{}]", index.value());
+        let kind = component_type(accessor, &here)?;
+        check_type::<N>(accessor, &here)?;
+        Ok(Self {
+            source: Source::Unpacked(numbers.as_chunks().0.to_vec()),
+            kind,
+            normalized: accessor.normalized,
+            replaced: Vec::new(),
         })
     }
 
@@ -50,14 +79,22 @@ impl<'a, const N: usize> Vectors<'a, N> {
 
     /// Number of elements.
     pub(super) fn len(&self) -> usize {
-        self.elements.count
+        match &self.source {
+            Source::View(elements) => elements.count,
+            Source::Unpacked(elements) => elements.len(),
+        }
     }
 
     /// Element `index`, which must be below [`Vectors::len`].
     pub(super) fn get(&self, index: u32) -> [f32; N] {
         match self.replaced.binary_search_by_key(&index, |&(i, _)| i) {
             Ok(found) => self.replaced[found].1,
-            Err(_) => vector(&self.elements, index as usize, self.normalized),
+            Err(_) => match &self.source {
+                Source::View(elements) => vector(elements, index as usize, self.normalized),
+                Source::Unpacked(elements) => {
+                    elements[index as usize].map(|x| share(x, self.kind, self.normalized))
+                }
+            },
         }
     }
 }
@@ -77,7 +114,13 @@ pub(super) fn component_count(
 }
 
 /// An accessor of indices.
-pub(super) struct Indices<'a>(Elements<'a>);
+pub(super) enum Indices<'a> {
+    View(ViewIndices<'a>),
+    Unpacked(Vec<u32>),
+}
+
+/// Indices as they stand in a buffer.
+pub(super) struct ViewIndices<'a>(Elements<'a>);
 
 impl<'a> Indices<'a> {
     /// Checks accessor `index` and everything that it reaches. `place` is where the index stands.
@@ -100,17 +143,24 @@ impl<'a> Indices<'a> {
                 "export the scene without",
             ));
         }
-        Elements::of(buffers, accessor, kind, 1, &here).map(Self)
+        let elements = Elements::of(buffers, accessor, kind, 1, &here)?;
+        Ok(Self::View(ViewIndices(elements)))
     }
 
     /// Number of indices.
     pub(super) fn len(&self) -> usize {
-        self.0.count
+        match self {
+            Self::View(ViewIndices(elements)) => elements.count,
+            Self::Unpacked(indices) => indices.len(),
+        }
     }
 
     /// Index `index`, which must be below [`Indices::len`].
     pub(super) fn get(&self, index: usize) -> u32 {
-        integer(self.0.element(index), self.0.kind)
+        match self {
+            Self::View(ViewIndices(elements)) => integer(elements.element(index), elements.kind),
+            Self::Unpacked(indices) => indices[index],
+        }
     }
 }
 
@@ -256,15 +306,27 @@ fn vector<const N: usize>(elements: &Elements<'_>, index: usize, normalized: boo
     std::array::from_fn(|i| number(&bytes[i * size..], elements.kind, normalized))
 }
 
-/// Source: glTF 2.0 specification, 3.6.2.2 (normalised integers; the most negative value counts as -1).
 fn number(bytes: &[u8], kind: ComponentType, normalized: bool) -> f32 {
-    let (value, full) = match kind {
-        ComponentType::F32 => return f32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]),
-        ComponentType::I8 => (f32::from(bytes[0] as i8), 127.0),
-        ComponentType::U8 => (f32::from(bytes[0]), 255.0),
-        ComponentType::I16 => (f32::from(i16::from_le_bytes([bytes[0], bytes[1]])), 32767.0),
-        ComponentType::U16 => (f32::from(u16::from_le_bytes([bytes[0], bytes[1]])), 65535.0),
-        ComponentType::U32 => (integer(bytes, kind) as f32, u32::MAX as f32),
+    let value = match kind {
+        ComponentType::F32 => f32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]),
+        ComponentType::I8 => f32::from(bytes[0] as i8),
+        ComponentType::U8 => f32::from(bytes[0]),
+        ComponentType::I16 => f32::from(i16::from_le_bytes([bytes[0], bytes[1]])),
+        ComponentType::U16 => f32::from(u16::from_le_bytes([bytes[0], bytes[1]])),
+        ComponentType::U32 => integer(bytes, kind) as f32,
+    };
+    share(value, kind, normalized)
+}
+
+/// Source: glTF 2.0 specification, 3.6.2.2 (normalised integers; the most negative value counts as -1).
+fn share(value: f32, kind: ComponentType, normalized: bool) -> f32 {
+    let full = match kind {
+        ComponentType::F32 => return value,
+        ComponentType::I8 => 127.0,
+        ComponentType::U8 => 255.0,
+        ComponentType::I16 => 32767.0,
+        ComponentType::U16 => 65535.0,
+        ComponentType::U32 => u32::MAX as f32,
     };
     if normalized {
         (value / full).max(-1.0)

@@ -2,6 +2,7 @@
 
 use super::buffers::Buffers;
 use super::document::{Document, lookup};
+use super::draco::Budget;
 use super::fault::{Fault, Result};
 use super::frames::{Frame, Frames, Turn};
 use super::instancing::Copies;
@@ -51,6 +52,7 @@ pub(super) fn geometry(
             triangles: 0,
             vertices: 0,
             displacements: 0,
+            packed: Budget::new(limits),
         },
         places: HashMap::new(),
         read: Vec::new(),

@@ -3,6 +3,7 @@
 use super::accessor::{Vectors, component_count};
 use super::buffers::Buffers;
 use super::document::Document;
+use super::draco::Unpacked;
 use super::fault::{Fault, Result};
 use glam::Vec4;
 use gltf::json::mesh::{self, Semantic};
@@ -17,15 +18,23 @@ pub(super) struct Attributes<'a, 'p> {
     pub(super) primitive: &'p mesh::Primitive,
     /// JSON path of the primitive.
     pub(super) place: &'p str,
+    /// What is packed, if anything is: it goes before what the accessors say.
+    pub(super) packed: Option<&'p Unpacked>,
 }
 
 impl<'a> Attributes<'a, '_> {
     /// An attribute of `N` components; none if the primitive does not have it.
     pub(super) fn get<const N: usize>(&self, semantic: Semantic) -> Result<Option<Vectors<'a, N>>> {
-        let place = self.path(&semantic);
-        self.index(semantic)
-            .map(|index| Vectors::new(self.document, self.buffers, index, || place))
-            .transpose()
+        let Some(index) = self.index(semantic.clone()) else {
+            return Ok(None);
+        };
+        let place = || self.path(&semantic);
+        let numbers = self.packed.and_then(|p| p.numbers(&semantic, N));
+        match numbers {
+            Some(numbers) => Vectors::unpacked(self.document, index, numbers, place),
+            None => Vectors::new(self.document, self.buffers, index, place),
+        }
+        .map(Some)
     }
 
     /// The same, refused if it has not an element for each of the `vertices`.

@@ -9,6 +9,8 @@ use gltf::json::{Root, Scene, Value, deserialize};
 const SUPPORTED: &[&str] = &[
     super::instancing::NAME,
     "EXT_texture_webp",
+    #[cfg(feature = "draco")]
+    super::draco::NAME,
     "KHR_lights_punctual",
     "KHR_materials_anisotropy",
     "KHR_materials_emissive_strength",

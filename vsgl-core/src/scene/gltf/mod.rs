@@ -22,6 +22,8 @@ mod buffers;
 mod cameras;
 mod container;
 mod document;
+#[cfg_attr(not(feature = "draco"), path = "draco_absent.rs")]
+mod draco;
 mod fault;
 mod files;
 mod frames;

@@ -4,6 +4,7 @@ use super::accessor::Indices;
 use super::attributes::Attributes;
 use super::buffers::Buffers;
 use super::document::Document;
+use super::draco::{Budget, Unpacked};
 use super::fault::{Fault, Result};
 use super::limits::Limits;
 use super::materials::Materials;
@@ -78,6 +79,8 @@ pub(super) struct Reader<'a> {
     pub(super) triangles: u64,
     pub(super) vertices: u64,
     pub(super) displacements: u64,
+    /// What may yet be unpacked.
+    pub(super) packed: Budget,
 }
 
 /// In which form a mesh is shown.
@@ -101,11 +104,13 @@ impl<'a> Reader<'a> {
         let Some(topology) = topology(primitive, place, warnings)? else {
             return Ok(None);
         };
+        let packed = Unpacked::new(self.buffers, primitive, &mut self.packed, place)?;
         let attributes = Attributes {
             document: self.document,
             buffers: self.buffers,
             primitive,
             place,
+            packed: packed.as_ref(),
         };
         let Some(positions) = attributes.get::<3>(Semantic::Positions)? else {
             warnings.add("primitives without positions are left out");
@@ -199,13 +204,18 @@ impl<'a> Reader<'a> {
         bent: bool,
     ) -> Result<Vec<[u32; 3]>> {
         let vertices = positions.len();
+        // Packed triangles are a list, whatever they were before.
+        let topology = attributes.packed.map_or(topology, |_| Topology::List);
         let place_of_positions = attributes.path(&Semantic::Positions);
         let place = format!("{}.indices", attributes.place);
-        let indices = attributes
-            .primitive
-            .indices
-            .map(|index| Indices::new(self.document, self.buffers, index, || place.clone()))
-            .transpose()?;
+        let indices = match (attributes.packed, attributes.primitive.indices) {
+            (Some(packed), _) => Some(Indices::Unpacked(packed.indices())),
+            (None, Some(index)) => {
+                let at = || place.clone();
+                Some(Indices::new(self.document, self.buffers, index, at)?)
+            }
+            (None, None) => None,
+        };
         let corners = indices.as_ref().map_or(vertices, Indices::len);
         if topology == Topology::List && !corners.is_multiple_of(3) {
             return Err(Fault::new(

@@ -4,6 +4,8 @@ mod geometry;
 mod hostile;
 mod images;
 mod materials;
+#[cfg(feature = "draco")]
+mod packed;
 mod resources;
 mod shapes;
 mod things;
