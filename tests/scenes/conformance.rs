@@ -69,14 +69,6 @@ const EXPECTED: &[(&str, Expected)] = &[
         Refused("FAKE_materials_quantumRendering"),
     ),
     (
-        "gltf-transform/BoxMeshopt.glb",
-        Refused("EXT_meshopt_compression"),
-    ),
-    (
-        "meshopt-JapaneseBridgeGarden/scene.glb",
-        Refused("EXT_meshopt_compression"),
-    ),
-    (
         "khronos/IridescenceSuzanne/IridescenceSuzanne.glb",
         Refused("KHR_materials_iridescence"),
     ),

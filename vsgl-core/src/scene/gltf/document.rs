@@ -8,6 +8,7 @@ use gltf::json::{Root, Scene, Value, deserialize};
 /// Extensions that are read, or that ask nothing of a reader.
 const SUPPORTED: &[&str] = &[
     super::instancing::NAME,
+    super::meshopt::NAME,
     "EXT_texture_webp",
     #[cfg(feature = "draco")]
     super::draco::NAME,

@@ -14,6 +14,7 @@ pub(super) struct Files {
     real_folder: PathBuf,
     budget: u64,
     left: Cell<u64>,
+    read: Cell<u64>,
 }
 
 impl Files {
@@ -29,6 +30,7 @@ impl Files {
             real_folder,
             budget,
             left: Cell::new(budget),
+            read: Cell::new(0),
         })
     }
 
@@ -54,7 +56,7 @@ impl Files {
         File::open(path)
             .and_then(|file| file.take(self.left.get() + 1).read_to_end(&mut bytes))
             .map_err(|e| unreadable(&e))?;
-        self.charge(bytes.len())?;
+        self.count(bytes.len() as u64)?;
         if bytes.starts_with(b"version https://git-lfs") {
             return Err(Fault::new(
                 "file",
@@ -69,7 +71,7 @@ impl Files {
     pub(super) fn resolve(&self, uri: &str, place: &str) -> Result<Vec<u8>> {
         let paths = match uri::parse(uri, place)? {
             Target::Data(bytes) => {
-                self.charge(bytes.len())?;
+                self.count(bytes.len() as u64)?;
                 return Ok(bytes);
             }
             Target::File(paths) => paths,
@@ -98,11 +100,18 @@ impl Files {
 
     /// Bytes of all files and data that were read so far.
     pub(super) fn bytes_read(&self) -> u64 {
-        self.budget - self.left.get()
+        self.read.get()
     }
 
-    fn charge(&self, bytes: usize) -> Result<()> {
-        let left = self.left.get().checked_sub(bytes as u64);
+    fn count(&self, bytes: u64) -> Result<()> {
+        self.charge(bytes)?;
+        self.read.set(self.read.get() + bytes);
+        Ok(())
+    }
+
+    /// Counts bytes that are read, or made of what was read.
+    pub(super) fn charge(&self, bytes: u64) -> Result<()> {
+        let left = self.left.get().checked_sub(bytes);
         self.left.set(left.ok_or_else(|| self.too_large())?);
         Ok(())
     }

@@ -9,6 +9,7 @@
 //! | `fault`, `limits`, `warnings` | what is refused, how much is accepted, what is left out |
 //! | `container`, `files`, `uri` | bytes: the file, files beside it, data inside it |
 //! | `document` | JSON to typed values, extensions, lookups that cannot miss |
+//! | `meshopt…`, `draco` | packed bytes and triangles |
 //! | `buffers`, `accessor` | elements of vertex attributes and indices |
 //! | `attributes`, `morph`, `topology`, `sharing`, `primitive` | triangles of one primitive in its own space |
 //! | `nodes`, `skins`, `instancing`, `frames`, `assemble` | the tree of nodes, and all triangles in one space |
@@ -32,6 +33,10 @@ mod instancing;
 mod lights;
 mod limits;
 mod materials;
+mod meshopt;
+mod meshopt_filters;
+mod meshopt_indices;
+mod meshopt_vertices;
 mod morph;
 mod nodes;
 mod options;

@@ -123,3 +123,87 @@ fn too_many_bytes() {
     let (_, message) = refused(File::triangle().load_within(&limits));
     assert!(message.contains("file_bytes"), "{message}");
 }
+
+/// The triangle with its corners and indices packed, in a file that requires it.
+fn meshopt(corners: &[u8], indices: &[u8]) -> File {
+    let mut file = File::triangle();
+    file.bin = [corners, indices].concat();
+    let packed = |start: usize, length: usize, rest: &str| {
+        format!(
+            r#"{{"buffer":1,"byteLength":36,"extensions":{{"EXT_meshopt_compression":
+                {{"buffer":0,"byteOffset":{start},"byteLength":{length},"count":3,{rest}}}}}}}"#
+        )
+    };
+    let views = [
+        packed(
+            0,
+            corners.len(),
+            r#""byteStride":12,"mode":"ATTRIBUTES","filter":"EXPONENTIAL""#,
+        ),
+        packed(
+            corners.len(),
+            indices.len(),
+            r#""byteStride":2,"mode":"TRIANGLES""#,
+        ),
+    ];
+    let buffers = format!(
+        r#"[{{"uri":"t.bin","byteLength":{}}},{{"byteLength":72,"extensions":{{"EXT_meshopt_compression":{{"fallback":true}}}}}}]"#,
+        file.bin.len()
+    );
+    file.set("bufferViews", &format!("[{}]", views.join(",")))
+        .set("buffers", &buffers)
+        .set("extensionsRequired", r#"["EXT_meshopt_compression"]"#)
+}
+
+/// Corners (0,0,0), (1,0,0), (0,1,0) as mantissas: only two bytes ever change, and back.
+fn packed_corners() -> Vec<u8> {
+    let mut bytes = vec![0xa0];
+    for byte in 0..12 {
+        match byte {
+            // +1, -1, 0.
+            0 => bytes.extend([1, 0b00_10_01_00, 0, 0, 0]),
+            // 0, 0, +1.
+            4 => bytes.extend([1, 0b00_00_10_00, 0, 0, 0]),
+            _ => bytes.push(0),
+        }
+    }
+    bytes.extend([0; 32]);
+    bytes
+}
+
+const PACKED_INDICES: [u8; 18] = [0xe1, 0xf0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0];
+
+#[test]
+fn packed_views_are_unpacked() {
+    let scene = meshopt(&packed_corners(), &PACKED_INDICES).load().unwrap();
+    let expected = File::triangle().load().unwrap();
+    assert_eq!(scene.mesh.positions, expected.mesh.positions);
+    assert_eq!(scene.mesh.triangles, expected.mesh.triangles);
+    assert!(scene.warnings.is_empty());
+}
+
+#[test]
+fn broken_packed_views_are_refused() {
+    let corners = packed_corners();
+    let here = "bufferViews[0].extensions.EXT_meshopt_compression";
+    refused_at(here, meshopt(&corners[1..], &PACKED_INDICES));
+    refused_at(
+        "bufferViews[1].extensions.EXT_meshopt_compression",
+        meshopt(&corners, &PACKED_INDICES[..17]),
+    );
+    let file = || meshopt(&corners, &PACKED_INDICES);
+    let views = file().json["bufferViews"].clone();
+    for (from, to, place) in [
+        (r#""buffer":0"#, r#""buffer":7"#, ".buffer"),
+        (r#""byteOffset":0"#, r#""byteOffset":99999"#, ""),
+        (r#""count":3"#, r#""count":4000000000"#, ".count"),
+        (r#""mode":"ATTRIBUTES""#, r#""mode":"X""#, ".mode"),
+    ] {
+        let views = views.replacen(from, to, 1);
+        refused_at(&format!("{here}{place}"), file().set("bufferViews", &views));
+    }
+    // A promise of more than the limit is not kept, whatever the data say.
+    let views = views.replacen(r#""count":3"#, r#""count":100000000"#, 1);
+    let (_, message) = refused(file().set("bufferViews", &views).load());
+    assert!(message.contains("file_bytes"), "{message}");
+}
