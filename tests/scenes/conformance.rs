@@ -127,6 +127,10 @@ const EXPECTED: &[(&str, Expected)] = &[
         Warned("animations"),
     ),
     (
+        "webp-draco-Room/room-transformed.glb",
+        Warned("alpha blending"),
+    ),
+    (
         "khronos/ClearCoatTest/ClearCoatTest.glb",
         Warned("KHR_materials_clearcoat"),
     ),
