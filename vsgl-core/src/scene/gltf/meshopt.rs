@@ -52,14 +52,14 @@ impl Packed {
             _ => return Err("filter"),
         };
         let fits = match mode {
-            Mode::Attributes => stride > 0 && stride % 4 == 0,
+            Mode::Attributes => stride > 0 && stride.is_multiple_of(4),
             Mode::Triangles | Mode::Indices => stride == 2 || stride == 4,
         };
         if !fits {
             return Err("byteStride");
         }
         let count = small("count", 1 << 31).ok_or("count")? as usize;
-        if mode == Mode::Triangles && count % 3 != 0 {
+        if mode == Mode::Triangles && !count.is_multiple_of(3) {
             return Err("count");
         }
         let start = match &extension["byteOffset"] {

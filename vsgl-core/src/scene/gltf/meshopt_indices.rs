@@ -86,7 +86,7 @@ impl State {
         let [a, b] = self.edges[self.edge.wrapping_sub(1 + usize::from(code >> 4)) & 15];
         let third = usize::from(code & 15);
         let (c, new) = match third {
-            0 => (self.new(), true),
+            0 => (self.unseen(), true),
             1..13 => (
                 self.vertices[self.vertex.wrapping_sub(1 + third) & 15],
                 false,
@@ -104,9 +104,9 @@ impl State {
     /// A triangle without such an edge; `pair` says what its second and third corners are.
     fn apart(&mut self, first: u8, pair: u8, data: &mut &[u8]) -> Option<[u32; 3]> {
         let (second, third) = (pair >> 4, pair & 15);
-        let a = if first == 0 { self.new() } else { 0 };
-        let b = self.new_or_seen(second);
-        let c = self.new_or_seen(third);
+        let a = if first == 0 { self.unseen() } else { 0 };
+        let b = self.unseen_or_seen(second);
+        let c = self.unseen_or_seen(third);
         let a = if first == 15 { self.written(data)? } else { a };
         let b = if second == 15 { self.written(data)? } else { b };
         let c = if third == 15 { self.written(data)? } else { c };
@@ -119,15 +119,15 @@ impl State {
         Some([a, b, c])
     }
 
-    fn new(&mut self) -> u32 {
+    fn unseen(&mut self) -> u32 {
         let index = self.next;
         self.next = index.wrapping_add(1);
         index
     }
 
-    fn new_or_seen(&mut self, code: u8) -> u32 {
+    fn unseen_or_seen(&mut self, code: u8) -> u32 {
         match code {
-            0 => self.new(),
+            0 => self.unseen(),
             back => self.vertices[self.vertex.wrapping_sub(usize::from(back)) & 15],
         }
     }
