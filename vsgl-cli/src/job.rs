@@ -133,7 +133,19 @@ impl Job {
     /// # Errors
     /// [`Failure::Input`] for a scene that would take for ever to draw.
     pub fn prepared(&self) -> Result<SceneData> {
-        let data = SceneData::new(&self.scene);
+        self.checked(SceneData::new(&self.scene))
+    }
+
+    /// As [`Job::prepared`], and lets go of what the scene need not hold any more; see [`SceneData::take`].
+    ///
+    /// # Errors
+    /// As [`Job::prepared`].
+    pub fn prepare(&mut self) -> Result<SceneData> {
+        let data = SceneData::take(&mut self.scene);
+        self.checked(data)
+    }
+
+    fn checked(&self, data: SceneData) -> Result<SceneData> {
         data.check_overlap(&self.name, self.overlap)?;
         Ok(data)
     }

@@ -94,6 +94,19 @@ macro_rules! columns {
             $( $(#[$cmeta])* pub $column: Vec<$element>, )*
         }
 
+        impl $type {
+            /// Adds the entries of a part after those that are there. Room for `count` entries in all is made with the
+            /// first part, so that nothing is held twice while a column grows.
+            pub fn append(&mut self, part: &Self, count: usize) {
+                $(
+                    if self.$column.is_empty() && !part.$column.is_empty() {
+                        self.$column.reserve_exact(count);
+                    }
+                    self.$column.extend_from_slice(&part.$column);
+                )*
+            }
+        }
+
         impl $crate::data::Columns for $type {
             const NAME: &'static str = $name;
 

@@ -1,27 +1,53 @@
 //! From the scene as it was read to the scene as the phases read it.
 
 use super::pyramid::{self, srgb_to_linear};
-use super::{Filter, Material, Scene, Slot, TextureRef, Wrap};
+use super::{Filter, Material, Mesh, Scene, Slot, TextureRef, Wrap};
 use crate::data::{
     DOUBLE_SIDED, MIPS, MaterialRecord, NEAREST, NO_TEXTURE, SECOND_SET, SceneData, TextureRecord,
     UNLIT,
 };
 use crate::geom;
 use glam::{Affine2, Vec2, Vec4};
+use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
+use std::mem::take;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
 impl SceneData {
     /// Orders the triangles along a bounding volume hierarchy and gathers what shading them needs.
     pub fn new(scene: &Scene) -> Self {
+        let (mut data, smaller) = Self::all_but_texels(scene);
+        let texels = scene.textures.iter().map(|t| Cow::Borrowed(&t.texels[..]));
+        data.texel = join(texels, smaller, texel_count(scene));
+        data
+    }
+
+    /// As [`SceneData::new`], but frees on the way what the scene need not hold any more, so that not all is there twice:
+    /// texels, and of the mesh all but positions and triangles.
+    pub fn take(scene: &mut Scene) -> Self {
+        let (mut data, smaller) = Self::all_but_texels(scene);
+        scene.mesh = Mesh {
+            positions: take(&mut scene.mesh.positions),
+            triangles: take(&mut scene.mesh.triangles),
+            ..Mesh::default()
+        };
+        let count = texel_count(scene);
+        let texels = scene.textures.iter_mut();
+        let texels = texels.map(|t| Cow::Owned(take(&mut t.texels)));
+        data.texel = join(texels, smaller, count);
+        data
+    }
+
+    /// Everything but the texels, and the smaller images of textures, if any texture is read.
+    fn all_but_texels(scene: &Scene) -> (Self, Option<Vec<Vec<u32>>>) {
         let mesh = &scene.mesh;
         let place = |triangle: &[u32; 3]| spread(triangle, |v| mesh.positions[v].to_array());
         let corners: Vec<[f32; 9]> = mesh.triangles.iter().map(place).collect();
         let bvh = geom::build(&corners);
         let order = || bvh.order.iter().map(|&i| i as usize);
 
-        let (textures, texels) = gather_textures(scene);
+        let (textures, smaller) = gather_textures(scene);
         let reads = |set: u32| {
             let mut used = scene.materials.iter().flat_map(uses).flatten();
             used.any(|texture| texture.set == set)
@@ -49,7 +75,7 @@ impl SceneData {
                 order().map(corners).collect()
             }
         };
-        Self {
+        let data = Self {
             lift_bits: (LIFT_LEAST * (high - low).length()).to_bits(),
             low_x_bits: low.x.to_bits(),
             low_y_bits: low.y.to_bits(),
@@ -74,9 +100,35 @@ impl SceneData {
                 (0..=255).map(srgb_to_linear).collect()
             },
             texture: textures,
-            texel: texels,
-        }
+            texel: Vec::new(),
+        };
+        (data, smaller)
     }
+}
+
+fn texel_count(scene: &Scene) -> usize {
+    scene.textures.iter().map(|t| t.texels.len()).sum()
+}
+
+/// All texels: the textures', `count` in all, then those of their smaller images; none if no texture is read.
+fn join<'a>(
+    textures: impl Iterator<Item = Cow<'a, [[u8; 4]]>>,
+    smaller: Option<Vec<Vec<u32>>>,
+    count: usize,
+) -> Vec<u32> {
+    let mut texels = Vec::new();
+    let Some(smaller) = smaller else {
+        return texels;
+    };
+    // At once: growing would hold everything twice.
+    texels.reserve_exact(count + smaller.iter().map(Vec::len).sum::<usize>());
+    for texture in textures {
+        texels.extend(texture.iter().map(|&t| u32::from_le_bytes(t)));
+    }
+    for words in smaller {
+        texels.extend(words);
+    }
+    texels
 }
 
 /// Least lift of ray origins, as a share of the scene's diagonal: a few roundings of a coordinate at its edge.
@@ -154,28 +206,34 @@ fn gather_materials(scene: &Scene) -> Vec<MaterialRecord> {
     scene.materials.iter().map(record).collect()
 }
 
-fn gather_textures(scene: &Scene) -> (Vec<TextureRecord>, Vec<u32>) {
+/// Records of the textures that are read, and the smaller images of these textures in the order in which they follow
+/// the textures; none if no texture is read.
+fn gather_textures(scene: &Scene) -> (Vec<TextureRecord>, Option<Vec<Vec<u32>>>) {
     let slots = |material| Slot::ALL.into_iter().zip(uses(material));
     let used = scene.materials.iter().flat_map(slots);
     let used: Vec<(Slot, TextureRef)> = used
         .filter_map(|(slot, texture)| Some((slot, texture?)))
         .collect();
-    let mut first_of = Vec::with_capacity(scene.textures.len());
-    let mut texels = Vec::new();
-    if !used.is_empty() {
-        for texture in &scene.textures {
-            first_of.push(texels.len() as u32);
-            texels.extend(texture.texels.iter().map(|&t| u32::from_le_bytes(t)));
-        }
+    if used.is_empty() {
+        return (Vec::new(), None);
     }
+    let mut next = 0u32;
+    let mut place = |words: usize| {
+        let first = next;
+        next += words as u32;
+        first
+    };
+    let textures = scene.textures.iter();
+    let first_of: Vec<u32> = textures.map(|t| place(t.texels.len())).collect();
     let wanted = used.iter().filter(|(_, texture)| texture.mips);
     let wanted: BTreeSet<Pyramid> = wanted
         .map(|&(slot, t)| (t.texture, is_srgb(slot)))
         .collect();
     let mut smaller_of = BTreeMap::new();
+    let mut all_smaller = Vec::new();
     for (pyramid, words) in pyramids(scene, &Vec::from_iter(wanted)) {
-        smaller_of.insert(pyramid, texels.len() as u32);
-        texels.extend(words);
+        smaller_of.insert(pyramid, place(words.len()));
+        all_smaller.push(words);
     }
     let records = used.into_iter().map(|(slot, use_)| {
         let texture = &scene.textures[use_.texture as usize];
@@ -196,7 +254,7 @@ fn gather_textures(scene: &Scene) -> (Vec<TextureRecord>, Vec<u32>) {
             levels: smaller.map_or(1, |_| pyramid::levels(texture)),
         }
     });
-    (records.collect(), texels)
+    (records.collect(), Some(all_smaller))
 }
 
 /// A texture, and whether it holds sRGB colours.

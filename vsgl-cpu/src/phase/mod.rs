@@ -1,5 +1,6 @@
 //! One file a phase: only loops. What is computed for one element stands under the same name in `vsgl_core::phase`.
 
+pub(crate) mod band;
 pub mod block;
 pub(crate) mod cluster;
 pub(crate) mod filtered;

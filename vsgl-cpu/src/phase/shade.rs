@@ -1,5 +1,6 @@
 //! Light to the eye, all samples, in blocks of sixteen.
 
+use super::band;
 use super::block::{self, LANES, Receivers, Sums};
 use crate::CpuBackend;
 use glam::Vec3;
@@ -19,6 +20,8 @@ use vsgl_core::{Error, Result};
 
 /// Blocks between two reports to the observer.
 const BLOCKS_A_REPORT: usize = 64;
+/// Blocks that are held before they become columns.
+const BLOCKS_A_BAND: usize = band::SAMPLES / LANES;
 
 pub(crate) fn run(
     inputs: &ShadeInputs<'_, CpuBackend>,
@@ -64,34 +67,35 @@ pub(crate) fn run(
         }
         Ok(block)
     };
-    let blocks: Vec<Block> = (0..blocks)
-        .into_par_iter()
-        .map(shade)
-        .collect::<Result<_>>()?;
     let count = gbuffer.triangle.len();
-    let column = |f: fn(&Block) -> &[[f32; 3]; LANES]| -> Vec<[f32; 3]> {
-        blocks
-            .iter()
-            .flat_map(|b| f(b).iter().copied())
-            .take(count)
-            .collect()
-    };
-    let bounce = plan.bounce;
-    Ok(Radiance {
+    let mut radiance = Radiance {
         width: gbuffer.width,
         height: gbuffer.height,
-        direct: column(|b| &b.direct),
-        indirect_diffuse: if bounce {
-            column(|b| &b.indirect_diffuse)
-        } else {
-            Vec::new()
-        },
-        indirect_glossy: if bounce && plan.glossy_receivers {
-            column(|b| &b.indirect_glossy)
-        } else {
-            Vec::new()
-        },
-    })
+        ..Radiance::default()
+    };
+    for first in (0..blocks).step_by(BLOCKS_A_BAND) {
+        let band = first..blocks.min(first + BLOCKS_A_BAND);
+        let left = count - first * LANES;
+        let band: Vec<Block> = band.into_par_iter().map(shade).collect::<Result<_>>()?;
+        radiance.append(&columns(&band, left, plan), count);
+    }
+    Ok(radiance)
+}
+
+/// The columns of blocks, of which at most `left` samples are in the picture.
+fn columns(blocks: &[Block], left: usize, plan: &ShadePlan) -> Radiance {
+    let column = |wanted: bool, f: fn(&Block) -> &[[f32; 3]; LANES]| -> Vec<[f32; 3]> {
+        let blocks = if wanted { blocks } else { &[] };
+        let samples = blocks.iter().flat_map(|b| f(b).iter().copied());
+        samples.take(left).collect()
+    };
+    let bounce = plan.bounce;
+    Radiance {
+        direct: column(true, |b| &b.direct),
+        indirect_diffuse: column(bounce, |b| &b.indirect_diffuse),
+        indirect_glossy: column(bounce && plan.glossy_receivers, |b| &b.indirect_glossy),
+        ..Radiance::default()
+    }
 }
 
 /// Texels with flux as point lights.

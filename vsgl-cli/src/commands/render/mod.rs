@@ -15,7 +15,7 @@ use report::{Report, Seconds, Written};
 use serde_json::Value;
 use std::time::Instant;
 use vsgl_core::data::Image;
-use vsgl_core::render::render;
+use vsgl_core::render::{Frame, render};
 
 /// Renders and writes.
 ///
@@ -26,7 +26,7 @@ pub(super) fn run(args: &RenderArgs) -> Result<()> {
     for path in &out.files {
         Format::of(path)?;
     }
-    let job = Job::new(&args.scene, &args.view, &args.settings)?;
+    let mut job = Job::new(&args.scene, &args.view, &args.settings)?;
     if job.facts.triangles == 0 {
         return Err(Failure::Input(format!(
             "{}: nothing to draw: the scene has no triangles; give one that has",
@@ -43,16 +43,16 @@ pub(super) fn run(args: &RenderArgs) -> Result<()> {
             if let Some(why) = why.as_ref().filter(|_| !out.quiet && !out.json) {
                 text::warn(&format!("note: computing on the CPU: {why}"));
             }
-            work(&backend, why, &job, out, files, dump)
+            work(&backend, why, &mut job, out, files, dump)
         }
-        Chosen::Wgpu(backend) => work(&*backend, None, &job, out, files, dump),
+        Chosen::Wgpu(backend) => work(&*backend, None, &mut job, out, files, dump),
     }
 }
 
 fn work<B: Host>(
     backend: &B,
     why: Option<String>,
-    job: &Job,
+    job: &mut Job,
     out: &OutputArgs,
     files: Vec<(Format, Pending)>,
     dump: Option<dump::Dump>,
@@ -101,14 +101,15 @@ fn work<B: Host>(
     text::print(&report.text())
 }
 
-/// Renders. What the camera sees is let go: a large picture needs the room while it is written.
+/// Renders. The scene and what the camera sees are let go as soon as they are not needed any more: a large picture
+/// needs the room.
 fn draw<B: Host>(
     backend: &B,
-    job: &Job,
+    job: &mut Job,
     out: &OutputArgs,
 ) -> Result<(Image, dump::Senders<B>, Seconds)> {
     let start = Instant::now();
-    let scene = backend.upload(job.prepared()?)?;
+    let scene = backend.upload(job.prepare()?)?;
     let mut list = vec![("scene".to_owned(), start.elapsed().as_secs_f64())];
     let start = Instant::now();
     let progress = Progress::new(if out.quiet { When::Never } else { out.progress });
@@ -121,8 +122,16 @@ fn draw<B: Host>(
         &progress,
     );
     let called = progress.finish();
-    let frame = frame?;
-    let image = backend.download(&frame.image)?;
+    let Frame {
+        rsm,
+        pdf,
+        vsgls,
+        gbuffer,
+        radiance,
+        image,
+    } = frame?;
+    drop((scene, gbuffer, radiance));
+    let image = backend.download(&image)?;
     let wall = start.elapsed().as_secs_f64();
     let device = backend.times()?;
     let clock = if device.is_some() { "device" } else { "host" };
@@ -130,12 +139,7 @@ fn draw<B: Host>(
         list.push((phase.to_string(), time.as_secs_f64()));
     }
     let seconds = Seconds { list, wall, clock };
-    let senders = dump::Senders {
-        rsm: frame.rsm,
-        pdf: frame.pdf,
-        vsgls: frame.vsgls,
-    };
-    Ok((image, senders, seconds))
+    Ok((image, dump::Senders { rsm, pdf, vsgls }, seconds))
 }
 
 fn warn(out: &OutputArgs, warnings: &[String]) {
