@@ -29,6 +29,7 @@ pub(crate) fn plan(emission: Emission, diffuse: DiffuseForm, glossy: GlossyForm)
         diffuse,
         glossy,
         occlusion: OcclusionMethod::None,
+        masks: false,
     }
 }
 

@@ -118,6 +118,7 @@ fn everything_that_a_surface_can_be() {
             assert!(seen.emission && seen.normal_maps && seen.colors && seen.unlit);
             assert!(sent.textures && sent.normal_maps && sent.colors && !sent.emission);
             assert!(seen.anisotropy && sent.anisotropy);
+            assert!(sent.masks && plan.shade.masks);
             let name = format!("everything, tangents {tangents}, {tiles} tiles");
             agree(&name, &shot, Tier::Lavapipe, true);
             agree(&name, &shot, Tier::SwiftShader, true);

@@ -34,6 +34,7 @@ fn plans() -> Vec<Plan> {
             anisotropy: has(3) != (bits % 3 == 0),
         };
         (fact.seen, fact.sent) = (some, some);
+        fact.masks = bits % 3 == 0;
         facts.push(fact);
     }
     let mut plans = Vec::new();

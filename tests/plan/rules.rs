@@ -3,7 +3,7 @@
 use vsgl_core::glam::Vec3;
 use vsgl_core::plan::{Plan, SurfacePlan};
 use vsgl_core::scene::{DirectionalLight, Light, Material, PointLight, SpotLight, TextureRef};
-use vsgl_core::settings::OcclusionMethod;
+use vsgl_core::settings::{OcclusionMethod, Primary};
 use vsgl_tests::render::Shot;
 
 fn shot(settings: &str) -> Shot {
@@ -168,6 +168,7 @@ fn surfaces_are_read_only_where_there_is_something() {
         "vertex colours",
         "unlit surfaces",
         "emission",
+        "alpha masks",
     ];
     for topic in topics {
         let plan = plain.plan();
@@ -239,6 +240,22 @@ fn two_roughnesses_only_for_anisotropic_gloss() {
     let frame = stretched("").frame();
     assert_eq!(frame.gbuffer.tangent.len(), frame.gbuffer.triangle.len());
     assert!(shot("").frame().gbuffer.tangent.is_empty());
+}
+
+#[test]
+fn a_rasteriser_leaves_masks_to_rays() {
+    let masked = Shot::of(vsgl_tests::surfaces::everything(true, 4.0)).with("primary=raster");
+    let plan = masked.plan();
+    assert_eq!(plan.gbuffer.primary, Primary::Rays);
+    assert!(reason(&plan, "raster").is_some_and(|(runs, why)| !runs && why.contains("masks")));
+    // A mask that leaves out nothing is none.
+    for (cutoff, alpha, masks) in [(0.0, 0.0, false), (0.5, 0.6, false), (0.5, 0.4, true)] {
+        let mut plain = shot("");
+        for material in &mut plain.scene.materials {
+            (material.alpha_cutoff, material.alpha) = (Some(cutoff), alpha);
+        }
+        assert_eq!(plain.plan().shade.masks, masks, "{cutoff} {alpha}");
+    }
 }
 
 #[test]

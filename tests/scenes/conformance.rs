@@ -157,10 +157,6 @@ const EXPECTED: &[(&str, Expected)] = &[
         Warned("lights without intensity"),
     ),
     (
-        "khronos/TextureEncodingTest/TextureEncodingTest.glb",
-        NotYet("alpha masks", "no alpha masks"),
-    ),
-    (
         "khronos/TextureTransformMultiTest/TextureTransformMultiTest.glb",
         Warned("KHR_materials_clearcoat"),
     ),

@@ -135,6 +135,17 @@ pub fn everything(tangents: bool, tiles: f32) -> Scene {
             anisotropy_texture: Some(used(1, 2)),
             ..base.clone()
         },
+        Material {
+            base_color_texture: Some(used(1, 2)),
+            alpha_cutoff: Some(0.4),
+            ..base.clone()
+        },
+        Material {
+            base_color_texture: Some(used(3, 3)),
+            alpha: 0.8,
+            alpha_cutoff: Some(0.2),
+            ..base.clone()
+        },
     ];
     let mut mesh = Mesh::default();
     let floor = Vec3::NEG_Z * 4.0;
@@ -148,6 +159,11 @@ pub fn everything(tangents: bool, tiles: f32) -> Scene {
         let right = Vec3::new(angle.cos(), 0.0, angle.sin()) * 0.4;
         quad(&mut mesh, centre, right, Vec3::Y * 0.5, 2.0, 1 + card % 5);
     }
+    // Holes above the floor, whose shadows have holes too, and before the camera.
+    let roof = Vec3::new(-0.5, 2.2, 0.5);
+    quad(&mut mesh, roof, Vec3::X, Vec3::NEG_Z, 2.0, 7);
+    let screen = Vec3::new(0.8, 1.0, 2.0);
+    quad(&mut mesh, screen, Vec3::X * 0.6, Vec3::Y * 0.5, 2.0, 8);
     if !tangents {
         mesh.tangents.clear();
     }

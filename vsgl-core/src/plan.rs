@@ -57,6 +57,8 @@ pub struct SurfacePlan {
     pub anisotropy: bool,
     /// What it sends by itself, into the column of the G-buffer.
     pub emission: bool,
+    /// Whether rays pass where an alpha mask leaves it out.
+    pub masks: bool,
 }
 
 /// The way of the light from the maps to the lights that shade.
@@ -140,6 +142,8 @@ pub struct ShadePlan {
     pub glossy: GlossyForm,
     /// Blocking of indirect light.
     pub occlusion: OcclusionMethod,
+    /// Shadow rays pass where alpha masks leave surfaces out.
+    pub masks: bool,
 }
 
 impl Plan {
@@ -270,19 +274,30 @@ impl Plan {
             } else {
                 OcclusionMethod::None
             },
+            masks: seen.masks,
         };
-        reasons.decide(
+        let raster = reasons.decide(
             "raster",
-            &[(
-                settings.primary == Primary::Raster,
-                "the camera's rays say which triangle is seen",
-            )],
+            &[
+                (
+                    settings.primary == Primary::Raster,
+                    "the camera's rays say which triangle is seen",
+                ),
+                (
+                    !seen.masks,
+                    "rays see through alpha masks, where a rasteriser would draw other edges",
+                ),
+            ],
             "the GPU draws triangle ids, which may differ from those of rays along edges",
         );
         let gbuffer = GBufferPlan {
             glossy: receivers,
             surface: seen,
-            primary: settings.primary,
+            primary: if raster {
+                Primary::Raster
+            } else {
+                Primary::Rays
+            },
         };
         Ok(Self {
             gbuffer,
@@ -335,12 +350,18 @@ fn surfaces(facts: &SceneFacts, lit: bool, reasons: &mut Reasons) -> (SurfacePla
         "no surface in front of the camera shines by itself",
         "surfaces in front of the camera shine by themselves",
     );
+    let masks = reasons.decide(
+        "alpha masks",
+        &[(facts.masks, "no surface has one")],
+        "rays pass where surfaces are left out by their masks",
+    );
     let plan = |i: usize| SurfacePlan {
         textures: textures[i],
         normal_maps: normal_maps[i],
         colors: colors[i],
         unlit: unlit[i],
         emission: emission[i],
+        masks,
         ..SurfacePlan::default()
     };
     (plan(0), plan(1))

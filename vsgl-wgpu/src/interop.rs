@@ -79,6 +79,7 @@ pub fn host_plan(settings: &Settings, lights: usize, glossy: bool) -> Result<Pla
         glossy_receivers: glossy,
         seen: surfaces,
         sent: surfaces,
+        masks: true,
         bounds: (Vec3::ZERO, Vec3::ZERO),
     };
     Plan::new(&facts, settings)

@@ -2,7 +2,7 @@
 
 use crate::res::WgpuRes;
 use bytemuck::{Pod, Zeroable};
-use vsgl_core::data::SceneData;
+use vsgl_core::data::Columns;
 
 /// Twin of `View` in `data/view.wgsl`.
 #[repr(C)]
@@ -64,7 +64,8 @@ pub(crate) struct TexelLayout {
 }
 
 impl TexelLayout {
-    pub(crate) fn of(scene: &WgpuRes<SceneData>) -> Self {
+    /// Of a resource that has texels.
+    pub(crate) fn of<T: Columns>(scene: &WgpuRes<T>) -> Self {
         let first = |column: &str| {
             if scene.len(column) > 0 {
                 scene.first_word(column)

@@ -1,6 +1,7 @@
 //! Resources of core on the device: columns in buffers, and the way there and back.
 
 use crate::context::Context;
+use crate::params::TexelLayout;
 use crate::pool::Pooled;
 use crate::recorder::Binding;
 use crate::texels::Texels;
@@ -66,6 +67,8 @@ pub struct WgpuRes<T> {
     columns: Vec<Stored>,
     buffers: Vec<Pooled>,
     texels: Option<Texels>,
+    /// Where columns begin among the words of the texels, for shaders.
+    layout: Option<Pooled>,
     /// Number of entries that count, where only the device knows it: first word of this buffer. The columns named after it
     /// hold room for more.
     count: Option<(Pooled, &'static [&'static str])>,
@@ -139,6 +142,7 @@ impl<T: Columns> WgpuRes<T> {
             columns,
             buffers,
             texels: None,
+            layout: None,
             count: None,
             resource: PhantomData,
         })
@@ -178,6 +182,12 @@ impl<T: Columns> WgpuRes<T> {
             Place::Texels { first } => first as u32,
             Place::Buffer { .. } => 0,
         }
+    }
+
+    /// The uniform buffer that says where columns begin among the texels.
+    pub(crate) fn layout(&self) -> Binding<'_> {
+        let layout = self.layout.as_ref();
+        Binding::Buffer(layout.expect("only scenes have texels, and theirs are made with them"))
     }
 
     pub(crate) fn texels(&self) -> &Texels {
@@ -220,6 +230,11 @@ impl<T: Columns> WgpuRes<T> {
         }
         if T::NAME == TEXELS.0 {
             made.texels = Some(Texels::upload(context, &words)?);
+            let layout = TexelLayout::of(&made);
+            let bytes = bytemuck::bytes_of(&layout);
+            let buffer = context.buffer("where columns of the scene lie", bytes.len() as u64)?;
+            context.queue().write_buffer(&buffer, 0, bytes);
+            made.layout = Some(buffer);
         }
         if T::NAME == COUNTED {
             let count = context.buffer("the number of clusters", 4)?;

@@ -114,7 +114,7 @@ pub struct MaterialRecord {
     pub roughness: f32,
     /// Opacity.
     pub alpha: f32,
-    /// Where opacity is less, there is no surface; -1 where the material is opaque.
+    /// Where opacity is less, there is no surface; -1 where it is nowhere.
     pub alpha_cutoff: f32,
     /// [`DOUBLE_SIDED`] and [`UNLIT`].
     pub flags: u32,

@@ -9,5 +9,7 @@ mod triangle;
 pub use build::{Bvh, build};
 pub use overlap::overlap;
 pub use ray::Ray;
-pub use traverse::{BvhNode, Hit, LANES, SLAB_EXIT, STACK, any_hit, any_hit_block, closest_hit};
+pub use traverse::{
+    BvhNode, Covers, Hit, LANES, Opaque, SLAB_EXIT, STACK, any_hit, any_hit_block, closest_hit,
+};
 pub use triangle::{Crossing, cross};

@@ -43,6 +43,35 @@ pub struct Hit {
     pub v: f32,
 }
 
+/// Where triangles are there: a crossing counts only where its triangle covers it.
+pub trait Covers {
+    /// Everywhere: nothing else is asked.
+    const ALWAYS: bool;
+
+    /// Whether a triangle has no holes: [`Covers::covers`] is true all over it.
+    fn is_whole(&self, triangle: u32) -> bool;
+    /// Whether a triangle is there at a point, given by the weights of its second and third corner.
+    fn covers(&self, triangle: u32, u: f32, v: f32) -> bool;
+}
+
+/// Triangles without holes.
+#[derive(Clone, Copy, Debug)]
+pub struct Opaque;
+
+impl Covers for Opaque {
+    const ALWAYS: bool = true;
+
+    #[inline(always)]
+    fn is_whole(&self, _: u32) -> bool {
+        true
+    }
+
+    #[inline(always)]
+    fn covers(&self, _: u32, _: f32, _: f32) -> bool {
+        true
+    }
+}
+
 /// Entry and exit parameter of a line through a box; it misses where entry is greater than exit.
 ///
 /// The exit is moved outwards by [`SLAB_EXIT`], so that no hit inside is lost
@@ -58,7 +87,13 @@ fn slab(node: &BvhNode, ray: &Ray) -> (f32, f32) {
 }
 
 /// Nearest crossing with `0 < t < t_max`; of equal ones that with the lower triangle id.
-pub fn closest_hit(nodes: &[BvhNode], corners: &[[f32; 9]], ray: &Ray, t_max: f32) -> Hit {
+pub fn closest_hit<C: Covers>(
+    nodes: &[BvhNode],
+    corners: &[[f32; 9]],
+    ray: &Ray,
+    t_max: f32,
+    covers: &C,
+) -> Hit {
     let mut hit = Hit {
         triangle: NO_TRIANGLE,
         t: t_max,
@@ -93,7 +128,7 @@ pub fn closest_hit(nodes: &[BvhNode], corners: &[[f32; 9]], ray: &Ray, t_max: f3
                 let Crossing { t, u, v, .. } = found;
                 let nearer = t < hit.t
                     || (t == hit.t && triangle < hit.triangle && hit.triangle != NO_TRIANGLE);
-                if found.hit && t > 0.0 && nearer {
+                if found.hit && t > 0.0 && nearer && (C::ALWAYS || covers.covers(triangle, u, v)) {
                     hit = Hit { triangle, t, u, v };
                 }
             }
@@ -103,7 +138,13 @@ pub fn closest_hit(nodes: &[BvhNode], corners: &[[f32; 9]], ray: &Ray, t_max: f3
 }
 
 /// Whether anything is crossed with `0 < t < t_max`.
-pub fn any_hit(nodes: &[BvhNode], corners: &[[f32; 9]], ray: &Ray, t_max: f32) -> bool {
+pub fn any_hit<C: Covers>(
+    nodes: &[BvhNode],
+    corners: &[[f32; 9]],
+    ray: &Ray,
+    t_max: f32,
+    covers: &C,
+) -> bool {
     let mut stack = [0u32; STACK];
     let mut held = usize::from(!nodes.is_empty());
     while held > 0 {
@@ -120,7 +161,8 @@ pub fn any_hit(nodes: &[BvhNode], corners: &[[f32; 9]], ray: &Ray, t_max: f32) -
         } else {
             for triangle in node.first..node.first + node.count {
                 let found = cross(ray.origin, ray.direction, &corners[triangle as usize]);
-                if found.hit && found.t > 0.0 && found.t < t_max {
+                let Crossing { hit, t, u, v } = found;
+                if hit && t > 0.0 && t < t_max && (C::ALWAYS || covers.covers(triangle, u, v)) {
                     return true;
                 }
             }
@@ -134,12 +176,13 @@ pub fn any_hit(nodes: &[BvhNode], corners: &[[f32; 9]], ray: &Ray, t_max: f32) -
 /// Gives each ray the answer that [`any_hit`] gives it. Returns 1 where something is crossed or nothing was asked,
 /// else 0.
 #[inline(always)]
-pub fn any_hit_block(
+pub fn any_hit_block<C: Covers>(
     nodes: &[BvhNode],
     corners: &[[f32; 9]],
     origin: &[[f32; LANES]; 3],
     direction: &[[f32; LANES]; 3],
     open: &[bool; LANES],
+    covers: &C,
 ) -> [u32; LANES] {
     let mut inverse = [[0.0f32; LANES]; 3];
     let mut blocked = [0u32; LANES];
@@ -180,13 +223,30 @@ pub fn any_hit_block(
         }
         for triangle in node.first..node.first + node.count {
             let corner = corners[triangle as usize];
-            for lane in 0..LANES {
+            let at = |lane: usize| {
                 let from = Vec3::new(origin[0][lane], origin[1][lane], origin[2][lane]);
                 let along = Vec3::new(direction[0][lane], direction[1][lane], direction[2][lane]);
-                let found = cross(from, along, &corner);
+                cross(from, along, &corner)
+            };
+            let mut crossed = [0u32; LANES];
+            for lane in 0..LANES {
+                let found = at(lane);
                 // Rays whose box test failed cannot cross: the box test is conservative.
-                blocked[lane] |=
+                crossed[lane] =
                     u32::from(found.hit & (found.t > 0.0) & (found.t < 1.0)) & met[lane];
+            }
+            // Holes are looked at ray by ray, and only where there is a crossing: lanes stay side by side above.
+            if C::ALWAYS || crossed.iter().all(|&c| c == 0) || covers.is_whole(triangle) {
+                for lane in 0..LANES {
+                    blocked[lane] |= crossed[lane];
+                }
+            } else {
+                for lane in 0..LANES {
+                    if crossed[lane] > blocked[lane] {
+                        let found = at(lane);
+                        blocked[lane] = u32::from(covers.covers(triangle, found.u, found.v));
+                    }
+                }
             }
         }
         if blocked.iter().all(|&b| b == 1) {
@@ -256,14 +316,73 @@ mod tests {
                     };
                 }
             }
-            assert_eq!(closest_hit(&bvh.nodes, &corners, &ray, 1.0), expected);
             assert_eq!(
-                any_hit(&bvh.nodes, &corners, &ray, 1.0),
+                closest_hit(&bvh.nodes, &corners, &ray, 1.0, &Opaque),
+                expected
+            );
+            assert_eq!(
+                any_hit(&bvh.nodes, &corners, &ray, 1.0, &Opaque),
                 expected.triangle != NO_TRIANGLE
             );
             hits += usize::from(expected.triangle != NO_TRIANGLE);
         }
         assert!(hits > 200 && hits < 1900, "{hits} of 2000 rays hit");
+    }
+
+    /// Holes in every other triangle, and in half of each.
+    struct Sieve;
+
+    impl Covers for Sieve {
+        const ALWAYS: bool = false;
+
+        fn is_whole(&self, _: u32) -> bool {
+            false
+        }
+
+        fn covers(&self, triangle: u32, u: f32, _: f32) -> bool {
+            triangle.is_multiple_of(2) && u < 0.5
+        }
+    }
+
+    #[test]
+    fn rays_pass_where_triangles_are_not() {
+        let bvh = build(&soup());
+        let corners: Vec<[f32; 9]> = bvh.order.iter().map(|&i| soup()[i as usize]).collect();
+        let rays: Vec<Ray> = rays().collect();
+        let mut passed = 0;
+        for block in rays.chunks_exact(LANES) {
+            let lane = |f: fn(&Ray) -> f32| std::array::from_fn(|i| f(&block[i]));
+            let origin = [
+                lane(|r| r.origin.x),
+                lane(|r| r.origin.y),
+                lane(|r| r.origin.z),
+            ];
+            let direction = [
+                lane(|r| r.direction.x),
+                lane(|r| r.direction.y),
+                lane(|r| r.direction.z),
+            ];
+            let open = &[true; LANES];
+            let together = any_hit_block(&bvh.nodes, &corners, &origin, &direction, open, &Sieve);
+            for (ray, together) in block.iter().zip(together) {
+                let crossings = corners.iter().enumerate().filter_map(|(id, corner)| {
+                    let found = cross(ray.origin, ray.direction, corner);
+                    let inside = found.hit && found.t > 0.0 && found.t < 1.0;
+                    (inside && Sieve.covers(id as u32, found.u, 0.0)).then_some(found.t)
+                });
+                let nearest = crossings.fold(1.0, f32::min);
+                let hit = closest_hit(&bvh.nodes, &corners, ray, 1.0, &Sieve);
+                assert_eq!(hit.t, nearest);
+                assert_eq!(
+                    any_hit(&bvh.nodes, &corners, ray, 1.0, &Sieve),
+                    nearest < 1.0
+                );
+                assert_eq!(together == 1, nearest < 1.0);
+                let whole = any_hit(&bvh.nodes, &corners, ray, 1.0, &Opaque);
+                passed += usize::from(whole && nearest == 1.0);
+            }
+        }
+        assert!(passed > 50, "only {passed} rays pass through a hole");
     }
 
     #[test]
@@ -283,9 +402,16 @@ mod tests {
                 lane(|r| r.direction.y),
                 lane(|r| r.direction.z),
             ];
-            let got = any_hit_block(&bvh.nodes, &corners, &origin, &direction, &[true; LANES]);
+            let got = any_hit_block(
+                &bvh.nodes,
+                &corners,
+                &origin,
+                &direction,
+                &[true; LANES],
+                &Opaque,
+            );
             for (ray, got) in block.iter().zip(got) {
-                assert_eq!(got == 1, any_hit(&bvh.nodes, &corners, ray, 1.0));
+                assert_eq!(got == 1, any_hit(&bvh.nodes, &corners, ray, 1.0, &Opaque));
             }
         }
     }
@@ -323,7 +449,13 @@ mod tests {
                 3 => Vec3::ONE - origin,
                 _ => Vec3::new(fract(3.0), fract(7.0), fract(11.0)),
             };
-            let hit = closest_hit(&bvh.nodes, &corners, &Ray::new(origin, direction), f32::MAX);
+            let hit = closest_hit(
+                &bvh.nodes,
+                &corners,
+                &Ray::new(origin, direction),
+                f32::MAX,
+                &Opaque,
+            );
             assert_ne!(
                 hit.triangle, NO_TRIANGLE,
                 "ray {i} from {origin} along {direction}"

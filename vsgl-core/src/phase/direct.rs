@@ -1,12 +1,14 @@
 //! Light of the lights themselves at one receiver.
 
 use super::facing::lift;
+use super::mask::any_hit;
 use super::shade::{
     Colors, Incoming, Receiver, anisotropic_point, fresnel_weight, glossy_point, lambert_constant,
 };
 use crate::data::{LightRecord, SceneData};
-use crate::geom::{Ray, any_hit};
+use crate::geom::Ray;
 use crate::math::vec::normalize;
+use crate::plan::ShadePlan;
 use crate::scene::SpotLight;
 use crate::scene::light::window;
 use crate::sg::lobe::SHARPNESS_MAX;
@@ -38,18 +40,18 @@ pub fn incoming(light: &LightRecord, position: Vec3) -> Incoming {
 
 /// Radiance to the eye from one light \[W/(m² sr)\], with a shadow ray where it would shine.
 ///
-/// `facing` is the geometric normal on the side of the eye; `anisotropic` whether receivers have two roughnesses.
+/// `facing` is the geometric normal on the side of the eye. Of the plan, masks and two roughnesses matter.
 pub fn radiance(
     scene: &SceneData,
     light: &LightRecord,
     receiver: &Receiver,
     facing: Vec3,
     colors: &Colors,
-    anisotropic: bool,
+    plan: &ShadePlan,
 ) -> Vec3 {
     let incoming = incoming(light, receiver.position);
     let lambert = lambert_constant(&incoming, receiver) * std::f32::consts::FRAC_1_PI;
-    let specular = if anisotropic {
+    let specular = if plan.anisotropic_receivers {
         anisotropic_point(&incoming, receiver)
     } else {
         glossy_point(&incoming, receiver)
@@ -67,7 +69,7 @@ pub fn radiance(
     } else {
         (Vec3::from_array(light.position) - origin, 1.0)
     };
-    if any_hit(&scene.node, &scene.corner, &Ray::new(origin, towards), end) {
+    if any_hit(scene, &Ray::new(origin, towards), end, plan.masks) {
         Vec3::ZERO
     } else {
         reflected

@@ -3,6 +3,7 @@
 use crate::data::SceneData;
 use crate::geom::Hit;
 use crate::math::vec::normalize;
+use crate::plan::SurfacePlan;
 use glam::Vec3;
 
 /// Smallest cosine between ray and triangle that a footprint is stretched by.
@@ -32,18 +33,36 @@ pub struct Place {
 }
 
 impl Place {
-    /// Where a ray along `direction` has hit. From it to the next column and row, rays move by `across` and `down` at this
-    /// distance \[m\].
-    pub fn at_hit(scene: &SceneData, hit: &Hit, direction: Vec3, across: Vec3, down: Vec3) -> Self {
-        let corner = &scene.corner[hit.triangle as usize];
+    /// Where a ray has hit, and nothing around it.
+    pub fn point(hit: &Hit) -> Self {
         Self {
             triangle: hit.triangle,
             u: hit.u.clamp(0.0, 1.0),
             v: hit.v.clamp(0.0, 1.0),
+            footprint: Footprint::default(),
+        }
+    }
+
+    /// Where a ray along `direction` has hit, if `reads` has textures with what is around it: from it to the next column and
+    /// row, rays move by `across` and `down` at this distance \[m\].
+    pub fn at_hit(
+        scene: &SceneData,
+        hit: &Hit,
+        direction: Vec3,
+        [across, down]: [Vec3; 2],
+        reads: &SurfacePlan,
+    ) -> Self {
+        let point = Self::point(hit);
+        if !(reads.textures || reads.normal_maps || reads.anisotropy) {
+            return point;
+        }
+        let corner = &scene.corner[hit.triangle as usize];
+        Self {
             footprint: Footprint {
                 x: step(corner, direction, across),
                 y: step(corner, direction, down),
             },
+            ..point
         }
     }
 }

@@ -1,9 +1,10 @@
 //! What the camera sees through one sample.
 
 use super::footprint::Place;
+use super::mask::closest_hit;
 use super::surface::{self, Surface};
 use crate::data::{GBuffer, NO_TRIANGLE, SceneData};
-use crate::geom::{Ray, closest_hit};
+use crate::geom::Ray;
 use crate::plan::GBufferPlan;
 use crate::render::View;
 use glam::Vec3;
@@ -48,7 +49,7 @@ pub struct Sample {
 /// What the ray through one sample meets.
 pub fn sample(scene: &SceneData, view: &View, x: u32, y: u32, plan: &GBufferPlan) -> Sample {
     let ray = ray(view, x, y);
-    let hit = closest_hit(&scene.node, &scene.corner, &ray, f32::MAX);
+    let hit = closest_hit(scene, &ray, f32::MAX, plan.surface.masks);
     if hit.triangle == NO_TRIANGLE {
         return Sample {
             triangle: NO_TRIANGLE,
@@ -56,8 +57,8 @@ pub fn sample(scene: &SceneData, view: &View, x: u32, y: u32, plan: &GBufferPlan
             surface: Surface::default(),
         };
     }
-    let [across, down] = steps(view).map(|step| step * hit.t);
-    let place = Place::at_hit(scene, &hit, ray.direction, across, down);
+    let steps = steps(view).map(|step| step * hit.t);
+    let place = Place::at_hit(scene, &hit, ray.direction, steps, &plan.surface);
     let surface = surface::at_hit(scene, &place, ray.direction, &plan.surface);
     Sample {
         triangle: hit.triangle,

@@ -4,11 +4,13 @@
 
 pub mod anisotropy;
 pub mod cluster;
+pub mod color;
 pub mod direct;
 pub mod facing;
 pub mod filtered;
 pub mod footprint;
 pub mod gbuffer;
+pub mod mask;
 pub mod normal_map;
 pub mod partition;
 pub mod pdf;

@@ -2,10 +2,11 @@
 
 use super::facing::geometric_normal;
 use super::footprint::Place;
+use super::mask::closest_hit;
 use super::surface;
 use crate::brdf::albedo::ggx_albedo;
 use crate::data::{ALL_AROUND, LightRecord, MapRecord, NO_TRIANGLE, Rsm, SceneData, map_kind};
-use crate::geom::{Ray, closest_hit};
+use crate::geom::Ray;
 use crate::math::vec::{luminance, orthonormal_basis};
 use crate::plan::RsmPlan;
 use crate::scene::light::window;
@@ -231,12 +232,12 @@ pub fn texel(
     if flux == Vec3::ZERO {
         return Texel::EMPTY;
     }
-    let hit = closest_hit(&scene.node, &scene.corner, &ray, f32::MAX);
+    let hit = closest_hit(scene, &ray, f32::MAX, plan.surface.masks);
     if hit.triangle == NO_TRIANGLE {
         return Texel::EMPTY;
     }
-    let [across, down] = steps(map, size, hit.t);
-    let place = Place::at_hit(scene, &hit, ray.direction, across, down);
+    let steps = steps(map, size, hit.t);
+    let place = Place::at_hit(scene, &hit, ray.direction, steps, &plan.surface);
     let surface = surface::at_hit(scene, &place, ray.direction, &plan.surface);
     let length = ray.direction.length();
     let light = ray.direction * (-1.0 / length);

@@ -2,7 +2,7 @@
 
 use super::anisotropy::{self, Stretch};
 use super::footprint::Place;
-use super::{normal_map, texture};
+use super::{color, normal_map, texture};
 use crate::data::{DOUBLE_SIDED, MaterialRecord, NO_TEXTURE, SceneData, UNLIT};
 use crate::math::vec::normalize;
 use crate::plan::SurfacePlan;
@@ -74,7 +74,7 @@ pub fn at_hit(scene: &SceneData, place: &Place, direction: Vec3, reads: &Surface
         }
     }
     if reads.colors && !scene.corner_color.is_empty() {
-        base = product(base, color(scene, place));
+        base = product(base, color::of_vertices(scene, place));
     }
     let mut normal = smooth;
     let mapped = reads.normal_maps && textures && material.normal_texture != NO_TEXTURE;
@@ -149,12 +149,6 @@ pub fn emitted(
     material.emission
 }
 
-/// Colour and opacity of the vertices at a place.
-pub fn color(scene: &SceneData, place: &Place) -> [f32; 4] {
-    let c = &scene.corner_color[place.triangle as usize];
-    std::array::from_fn(|i| (c[i] + (c[i + 4] - c[i]) * place.u) + (c[i + 8] - c[i]) * place.v)
-}
-
 fn product(factor: [f32; 3], by: [f32; 4]) -> [f32; 3] {
     [factor[0] * by[0], factor[1] * by[1], factor[2] * by[2]]
 }
@@ -176,4 +170,214 @@ pub(super) fn corners(corner: &[f32; 9]) -> (Vec3, Vec3, Vec3) {
 pub(super) fn interpolate(corner: &[f32; 9], u: f32, v: f32) -> Vec3 {
     let (a, ab, ac) = corners(corner);
     (a + ab * u) + ac * v
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::phase::footprint::Footprint;
+    use crate::scene::{Material, Mesh, Scene, Texture, TextureRef};
+    use glam::{Vec2, Vec4};
+
+    const ALL: SurfacePlan = SurfacePlan {
+        textures: true,
+        normal_maps: true,
+        colors: true,
+        unlit: true,
+        anisotropy: true,
+        emission: true,
+        masks: true,
+    };
+
+    /// A triangle in the xy plane that faces +z, with u to the right and v downwards, and textures of one texel each.
+    fn scene(material: Material, texels: &[[u8; 4]]) -> Scene {
+        Scene {
+            mesh: Mesh {
+                positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y],
+                normals: vec![Vec3::Z; 3],
+                texcoords: vec![Vec2::new(0.0, 1.0), Vec2::ONE, Vec2::ZERO],
+                triangles: vec![[0, 1, 2]],
+                material: vec![0],
+                ..Mesh::default()
+            },
+            materials: vec![material],
+            textures: texels
+                .iter()
+                .map(|&texel| Texture {
+                    width: 1,
+                    height: 1,
+                    texels: vec![texel],
+                })
+                .collect(),
+            ..Scene::default()
+        }
+    }
+
+    fn seen(scene: &Scene, direction: Vec3) -> Surface {
+        let place = Place {
+            triangle: 0,
+            u: 0.25,
+            v: 0.5,
+            footprint: Footprint::default(),
+        };
+        at_hit(&SceneData::new(scene), &place, direction, &ALL)
+    }
+
+    fn near(a: impl AsRef<[f32]>, b: impl AsRef<[f32]>) -> bool {
+        let mut pairs = a.as_ref().iter().zip(b.as_ref());
+        a.as_ref().len() == b.as_ref().len() && pairs.all(|(a, b)| (a - b).abs() < 2e-3)
+    }
+
+    #[test]
+    fn factors_textures_and_vertices_are_multiplied() {
+        let material = Material {
+            base_color: [0.5, 1.0, 1.0],
+            metallic: 0.5,
+            roughness: 0.5,
+            base_color_texture: Some(TextureRef::new(0)),
+            metallic_roughness_texture: Some(TextureRef::new(1)),
+            ..Material::default()
+        };
+        // sRGB code 188 is 0.5029 of the light of white.
+        let mut scene = scene(material, &[[188, 255, 188, 255], [0, 102, 51, 0]]);
+        scene.mesh.colors = vec![
+            Vec4::new(1.0, 0.0, 1.0, 1.0),
+            Vec4::ONE,
+            Vec4::new(1.0, 0.5, 1.0, 1.0),
+        ];
+        let found = seen(&scene, Vec3::NEG_Z);
+        let (base, metallic) = ([0.5 * 0.5029, 0.5, 0.5029], 0.1);
+        assert!(near(found.diffuse, base.map(|c| (1.0 - metallic) * c)));
+        assert!(near(found.f0, base.map(|c| 0.04 + (c - 0.04) * metallic)));
+        assert!((found.alpha - 0.04).abs() < 1e-5, "{}", found.alpha);
+        assert!(near(found.position.to_array(), [0.25, 0.5, 0.0]));
+    }
+
+    #[test]
+    fn specular_textures_multiply_strength_and_colour() {
+        let material = Material {
+            metallic: 0.0,
+            specular: 0.5,
+            specular_color: [1.0, 40.0, 1.0],
+            specular_texture: Some(TextureRef::new(0)),
+            specular_color_texture: Some(TextureRef::new(1)),
+            ..Material::default()
+        };
+        let scene = scene(material, &[[0, 0, 0, 102], [188, 255, 0, 0]]);
+        let found = seen(&scene, Vec3::NEG_Z);
+        // 0.04 · 40 is more than all: limited before the strength of 0.5 · 0.4.
+        assert!(near(found.f0, [0.02 * 0.2, 0.2, 0.0]), "{:?}", found.f0);
+        assert!((found.f90 - 0.2).abs() < 1e-5 && (found.dielectric_f90 - 0.2).abs() < 1e-5);
+        assert!((found.dielectric_f0 - 0.2).abs() < 1e-5);
+    }
+
+    /// A map that leans by 45 degrees along +x of the texture, or along +y.
+    #[test]
+    fn normal_maps_lean_right_and_up_on_both_sides() {
+        let half = std::f32::consts::FRAC_1_SQRT_2;
+        let code = |n: f32| ((n * 0.5 + 0.5) * 255.0).round() as u8;
+        let (lean, flat) = (code(half), code(0.0));
+        for tangents in [false, true] {
+            for (texel, expected) in [
+                ([lean, flat, lean, 255], [half, 0.0, half]),
+                ([flat, lean, lean, 255], [0.0, half, half]),
+            ] {
+                let material = Material {
+                    normal_texture: Some(TextureRef::new(0)),
+                    ..Material::default()
+                };
+                let mut scene = scene(material, &[texel]);
+                if tangents {
+                    scene.mesh.tangents = vec![Vec4::new(1.0, 0.0, 0.0, 1.0); 3];
+                }
+                let front = seen(&scene, Vec3::NEG_Z).normal.to_array();
+                let back = seen(&scene, Vec3::Z).normal.to_array();
+                assert!(
+                    (0..3).all(|i| (front[i] - expected[i]).abs() < 6e-3),
+                    "{front:?}"
+                );
+                assert!(
+                    (0..3).all(|i| (back[i] + expected[i]).abs() < 6e-3),
+                    "{back:?}"
+                );
+            }
+        }
+        // u to the left: x of the map points there, and y still upwards.
+        let material = Material {
+            normal_texture: Some(TextureRef::new(0)),
+            normal_scale: 0.5,
+            ..Material::default()
+        };
+        let mut mirrored = scene(material, &[[lean, lean, lean, 255]]);
+        for texcoord in &mut mirrored.mesh.texcoords {
+            texcoord.x = 1.0 - texcoord.x;
+        }
+        let normal = seen(&mirrored, Vec3::NEG_Z).normal;
+        let expected = Vec3::new(-0.5, 0.5, 1.0).normalize();
+        assert!(normal.distance(expected) < 6e-3, "{normal}");
+    }
+
+    #[test]
+    fn mapped_normals_face_the_viewer() {
+        let material = Material {
+            normal_texture: Some(TextureRef::new(0)),
+            ..Material::default()
+        };
+        // Leans by almost 90 degrees.
+        let scene = scene(material, &[[255, 128, 128, 255]]);
+        for direction in [
+            Vec3::new(1.0, 0.0, -0.1),
+            Vec3::new(5.0, 3.0, -7.0),
+            Vec3::NEG_Z,
+            Vec3::new(-1.0, 0.2, 0.3),
+        ] {
+            let normal = seen(&scene, direction).normal;
+            let cosine = -normal.dot(direction.normalize());
+            assert!(normal.is_normalized() && cosine > 0.5 * normal_map::HORIZON);
+        }
+    }
+
+    #[test]
+    fn coordinates_without_direction_leave_the_normal() {
+        let material = Material {
+            normal_texture: Some(TextureRef::new(0)),
+            ..Material::default()
+        };
+        let mut scene = scene(material, &[[255, 128, 128, 255]]);
+        scene.mesh.texcoords = vec![Vec2::ONE; 3];
+        assert_eq!(seen(&scene, Vec3::NEG_Z).normal, Vec3::Z);
+    }
+
+    #[test]
+    fn single_sided_materials_shine_from_their_front() {
+        let mut material = Material {
+            emission: [4.0, 2.0, 1.0],
+            emissive_texture: Some(TextureRef::new(0)),
+            ..Material::default()
+        };
+        let lit = |material: &Material, direction| {
+            seen(&scene(material.clone(), &[[188, 255, 0, 0]]), direction).emission
+        };
+        // Code 188 is a little more than half.
+        assert!(near(lit(&material, Vec3::NEG_Z), [2.011, 2.0, 0.0]));
+        assert_eq!(lit(&material, Vec3::Z), [0.0; 3]);
+        material.double_sided = true;
+        assert_eq!(lit(&material, Vec3::Z), lit(&material, Vec3::NEG_Z));
+    }
+
+    #[test]
+    fn unlit_surfaces_show_their_colour_and_reflect_nothing() {
+        let material = Material {
+            base_color: [0.5, 0.25, 1.0],
+            emission: [9.0; 3],
+            unlit: true,
+            ..Material::default()
+        };
+        for direction in [Vec3::Z, Vec3::NEG_Z] {
+            let found = seen(&scene(material.clone(), &[]), direction);
+            assert_eq!(found.emission, [0.5, 0.25, 1.0]);
+            assert_eq!((found.diffuse, found.f0), ([0.0; 3], [0.0; 3]));
+            assert_eq!((found.f90, found.dielectric_f90), (0.0, 0.0));
+        }
+    }
 }

@@ -22,6 +22,8 @@ pub struct SceneFacts {
     pub seen: SurfaceFacts,
     /// What is to be read of triangles that the lights may reach, and that reflect anything.
     pub sent: SurfaceFacts,
+    /// Some triangle has an alpha mask: it may stand in the way of any ray.
+    pub masks: bool,
     /// Smallest box around all vertices \[m\], relative to the scene's origin.
     pub bounds: (Vec3, Vec3),
 }
@@ -94,6 +96,7 @@ impl SurfaceFacts {
 struct Findings {
     glossy: bool,
     reflecting: bool,
+    masked: bool,
     surface: SurfaceFacts,
 }
 
@@ -103,6 +106,7 @@ impl Findings {
         Self {
             glossy,
             reflecting: glossy || (material.base_color != [0.0; 3] && !material.unlit),
+            masked: material.is_masked(colors),
             surface: SurfaceFacts::of(material, colors),
         }
     }
@@ -122,6 +126,7 @@ impl SceneFacts {
             glossy_receivers: false,
             seen: SurfaceFacts::default(),
             sent: SurfaceFacts::default(),
+            masks: false,
             bounds: scene.bounds(),
         };
         let colors = !scene.mesh.colors.is_empty();
@@ -129,6 +134,7 @@ impl SceneFacts {
         let findings: Vec<Findings> = scene.materials.iter().map(findings).collect();
         for (triangle, &material) in scene.mesh.triangles.iter().zip(&scene.mesh.material) {
             let found = findings[material as usize];
+            facts.masks |= found.masked;
             // Geometry is looked at only where the material has something new to say.
             let mut sent = facts.clone();
             sent.add_sent(found);

@@ -179,6 +179,13 @@ impl Material {
         (f0, self.specular)
     }
 
+    /// Whether the surface may be left out anywhere: `colors` says whether vertices have an opacity too.
+    pub fn is_masked(&self, colors: bool) -> bool {
+        let varies = colors || self.base_color_texture.is_some();
+        self.alpha_cutoff
+            .is_some_and(|cutoff| cutoff > 0.0 && (varies || self.alpha < cutoff))
+    }
+
     /// Whether anything but a Lambert reflection can come from this surface.
     pub fn is_glossy(&self) -> bool {
         self.metallic > 0.0 || self.specular > 0.0

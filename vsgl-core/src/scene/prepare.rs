@@ -185,7 +185,10 @@ fn gather_materials(scene: &Scene) -> Vec<MaterialRecord> {
             specular: material.specular,
             roughness: material.roughness,
             alpha: material.alpha,
-            alpha_cutoff: material.alpha_cutoff.unwrap_or(-1.0),
+            alpha_cutoff: match material.alpha_cutoff {
+                Some(cutoff) if material.is_masked(!scene.mesh.colors.is_empty()) => cutoff,
+                _ => -1.0,
+            },
             flags: u32::from(material.double_sided) * DOUBLE_SIDED
                 + u32::from(material.unlit) * UNLIT,
             emission: material.emission,

@@ -9,9 +9,10 @@ use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use vsgl_core::backend::{Senders, ShadeInputs};
 use vsgl_core::data::{GBuffer, LightRecord, NO_TRIANGLE, Radiance, Rsm, SceneData, Target, Vsgls};
-use vsgl_core::geom::any_hit_block;
+use vsgl_core::geom::{Opaque, any_hit_block};
 use vsgl_core::phase::direct;
 use vsgl_core::phase::facing::{geometric_normal, lift};
+use vsgl_core::phase::mask::Masked;
 use vsgl_core::phase::shade::{Colors, PointSender, Receiver};
 use vsgl_core::plan::ShadePlan;
 use vsgl_core::render::{Observer, Phase};
@@ -165,9 +166,9 @@ impl Shader<'_> {
             }
             if hit[lane] {
                 let colors = Colors::of(self.gbuffer, index(lane));
-                let two = self.plan.anisotropic_receivers;
-                let one =
-                    |light| direct::radiance(self.scene, light, receiver, facing, &colors, two);
+                let one = |light| {
+                    direct::radiance(self.scene, light, receiver, facing, &colors, self.plan)
+                };
                 let sum = self
                     .lights
                     .iter()
@@ -197,7 +198,13 @@ impl Shader<'_> {
 
 /// 1 for each lane that light reaches from a target, else 0. Lanes without light are not asked.
 #[inline(always)]
-fn open(scene: &SceneData, target: &Target, origins: &Origins, sums: &Sums) -> [f32; LANES] {
+fn open(
+    scene: &SceneData,
+    target: &Target,
+    origins: &Origins,
+    sums: &Sums,
+    masks: bool,
+) -> [f32; LANES] {
     let lift = lift(scene.lift(), Vec3::from_array(target.position));
     let end = Vec3::from_array(target.position) + Vec3::from_array(target.normal) * lift;
     let mut direction = [[0.0; LANES]; 3];
@@ -208,13 +215,12 @@ fn open(scene: &SceneData, target: &Target, origins: &Origins, sums: &Sums) -> [
         }
         asked[lane] = origins.hit[lane] & sums.lit(lane);
     }
-    let blocked = any_hit_block(
-        &scene.node,
-        &scene.corner,
-        &origins.position,
-        &direction,
-        &asked,
-    );
+    let (nodes, corners, from) = (&scene.node, &scene.corner, &origins.position);
+    let blocked = if masks {
+        any_hit_block(nodes, corners, from, &direction, &asked, &Masked(scene))
+    } else {
+        any_hit_block(nodes, corners, from, &direction, &asked, &Opaque)
+    };
     blocked.map(|b| 1.0 - b as f32)
 }
 
@@ -237,7 +243,7 @@ fn sum_vsgls(
         let sums = block::vsgl(diffuse, specular, &receivers, plan);
         let open = match plan.occlusion {
             OcclusionMethod::None => [1.0; LANES],
-            OcclusionMethod::Rays => open(scene, &vsgls.target[j], origins, &sums),
+            OcclusionMethod::Rays => open(scene, &vsgls.target[j], origins, &sums, plan.masks),
         };
         total.add_open(&sums, &open);
     }
@@ -264,6 +270,7 @@ fn sum_vpls(
                 &vsgl_core::phase::cluster::target(scene, rsm, *texel),
                 origins,
                 &sums,
+                plan.masks,
             ),
         };
         total.add_open(&sums, &open);

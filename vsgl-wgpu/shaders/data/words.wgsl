@@ -1,12 +1,12 @@
 //! needs: data/scene
 // Columns of the scene that are words of an integer texture: exact loads, and no storage buffer each.
 //
-// Reads `texels` and `params.texels`, which the entry binds.
+// Reads `texels` and `columns`, which the entry binds.
 
 fn words_at(index: u32) -> u32 {
     let column = index % TEXEL_SIDE;
     let row = index / TEXEL_SIDE;
-    let rows = params.texels.rows;
+    let rows = columns.rows;
     return textureLoad(texels, vec2(column, row % rows), row / rows, 0).x;
 }
 
@@ -19,7 +19,7 @@ fn words_vec3(index: u32) -> vec3<f32> {
 }
 
 fn words_material(triangle: u32) -> MaterialRecord {
-    let at = params.texels.material + MATERIAL_WORDS * words_at(params.texels.triangle_material + triangle);
+    let at = columns.material + MATERIAL_WORDS * words_at(columns.triangle_material + triangle);
     return MaterialRecord(
         words_vec3(at),
         words_f32(at + 3u),
@@ -46,7 +46,7 @@ fn words_material(triangle: u32) -> MaterialRecord {
 }
 
 fn words_texture(texture: u32) -> TextureRecord {
-    let at = params.texels.texture + TEXTURE_WORDS * texture;
+    let at = columns.texture + TEXTURE_WORDS * texture;
     return TextureRecord(
         words_at(at),
         words_at(at + 1u),

@@ -7,11 +7,11 @@ override NORMAL_MAPS: bool = true;
 override COLORS: bool = true;
 override UNLIT_ONES: bool = true;
 override ANISOTROPY: bool = true;
+override MASKS: bool = true;
 override EMISSION: bool = true;
 
 struct Params {
     view: View,
-    texels: TexelLayout,
     nodes: u32,
 }
 
@@ -26,6 +26,7 @@ struct Params {
 @group(0) @binding(7) var<storage, read_write> surface_out: array<vec4<f32>>;
 @group(0) @binding(8) var<storage, read_write> grazing_out: array<f32>;
 @group(0) @binding(9) var<storage, read_write> emission_out: array<f32>;
+@group(0) @binding(10) var<uniform> columns: TexelLayout;
 
 @compute @workgroup_size(INVOCATIONS)
 fn visibility(

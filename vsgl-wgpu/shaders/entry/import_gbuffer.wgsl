@@ -10,6 +10,8 @@ override BIASED: bool = false;
 override MATERIALS: bool = true;
 // Whether there is a scene, for shadow rays.
 override SCENE: bool = true;
+// Rays of a host's scene may meet masks, which its materials say.
+const MASKS: bool = true;
 
 struct Params {
     host: Host,
@@ -28,6 +30,8 @@ struct Params {
 // Columns position, normal, diffuse, specular, one after the other.
 @group(0) @binding(8) var<storage, read_write> surface_out: array<vec4<f32>>;
 @group(0) @binding(9) var<storage, read_write> grazing_out: array<f32>;
+@group(0) @binding(10) var texels: texture_2d_array<u32>;
+@group(0) @binding(11) var<uniform> columns: TexelLayout;
 
 @compute @workgroup_size(INVOCATIONS)
 fn import_gbuffer(

@@ -9,6 +9,8 @@ override MATERIALS: bool = true;
 override SCENE: bool = true;
 // Whether `colors` holds the reflected flux of each texel, or base colours.
 override FLUX: bool = false;
+// Rays of a host's scene may meet masks, which its materials say.
+const MASKS: bool = true;
 
 struct Params {
     host: Host,
@@ -35,6 +37,8 @@ struct Params {
 // Columns position, normal, diffuse, specular, grazing, one after the other.
 @group(0) @binding(8) var<storage, read_write> texel_out: array<vec4<f32>>;
 @group(0) @binding(9) var<storage, read_write> map_out: array<MapRecord>;
+@group(0) @binding(10) var texels: texture_2d_array<u32>;
+@group(0) @binding(11) var<uniform> columns: TexelLayout;
 
 @compute @workgroup_size(INVOCATIONS)
 fn import_rsm(

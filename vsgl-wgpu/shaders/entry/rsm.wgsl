@@ -7,12 +7,12 @@ override NORMAL_MAPS: bool = true;
 override COLORS: bool = true;
 override UNLIT_ONES: bool = true;
 override ANISOTROPY: bool = true;
+override MASKS: bool = true;
 // Maps have no place for it.
 const EMISSION: bool = false;
 
 struct Params {
     map: MapRecord,
-    texels: TexelLayout,
     nodes: u32,
     // Texels along a side.
     size: u32,
@@ -31,6 +31,7 @@ struct Params {
 // Columns position, normal, diffuse, specular, grazing, tangent, one after the other.
 @group(0) @binding(7) var<storage, read_write> texel_out: array<vec4<f32>>;
 @group(0) @binding(8) var<storage, read_write> map_out: array<MapRecord>;
+@group(0) @binding(9) var<uniform> columns: TexelLayout;
 
 @compute @workgroup_size(INVOCATIONS)
 fn visibility(

@@ -7,6 +7,7 @@ override GLOSSY_SENDERS: bool = true;
 override ANISOTROPIC_RECEIVERS: bool = false;
 override ANISOTROPIC_SENDERS: bool = false;
 override RAYS: bool = true;
+override MASKS: bool = true;
 override EMISSION: u32 = 0u;
 override DIFFUSE: u32 = 0u;
 override GLOSSY: u32 = 0u;
@@ -46,6 +47,8 @@ struct Count {
 @group(0) @binding(10) var<storage, read_write> radiance_out: array<f32>;
 // Sums of the samples of this band over the lights so far.
 @group(0) @binding(11) var<storage, read_write> waiting: array<vec4<f32>>;
+@group(0) @binding(12) var texels: texture_2d_array<u32>;
+@group(0) @binding(13) var<uniform> columns: TexelLayout;
 
 // Place of the tangents among the columns.
 const TANGENT: u32 = 4u;

@@ -1,14 +1,7 @@
-//! needs: data/scene, geom/ray, geom/triangle
+//! needs: data/scene, geom/hit, geom/ray, geom/triangle, phase/mask
 // Walking the hierarchy. Twin of `vsgl-core/src/geom/traverse.rs`.
 //
 // Reads `node` and `corner`, which the entry binds.
-
-struct Hit {
-    triangle: u32,
-    t: f32,
-    u: f32,
-    v: f32,
-}
 
 // Entry and exit parameter of a line through a box.
 fn traverse_slab(at: u32, ray: Ray) -> vec2<f32> {
@@ -51,7 +44,9 @@ fn traverse_closest_hit(nodes: u32, ray: Ray, t_max: f32) -> Hit {
                 let nearer = found.t < hit.t
                     || (found.t == hit.t && triangle < hit.triangle && hit.triangle != NO_TRIANGLE);
                 if found.hit && found.t > 0.0 && nearer {
-                    hit = Hit(triangle, found.t, found.u, found.v);
+                    if mask_covers(triangle, found.u, found.v) {
+                        hit = Hit(triangle, found.t, found.u, found.v);
+                    }
                 }
             }
         }
@@ -81,7 +76,9 @@ fn traverse_any_hit(nodes: u32, ray: Ray, t_max: f32) -> bool {
             for (var triangle = first; triangle < first + count; triangle++) {
                 let found = triangle_cross(ray.origin, ray.direction, corner[triangle]);
                 if found.hit && found.t > 0.0 && found.t < t_max {
-                    return true;
+                    if mask_covers(triangle, found.u, found.v) {
+                        return true;
+                    }
                 }
             }
         }

@@ -1,4 +1,4 @@
-//! needs: geom/traverse, math/vec
+//! needs: geom/hit, math/vec
 // How far apart neighbouring rays meet a surface. Twin of `vsgl-core/src/phase/footprint.rs`.
 //
 // Reads `corner`, which the entry binds.

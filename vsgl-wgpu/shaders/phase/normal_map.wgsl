@@ -44,8 +44,8 @@ fn normal_map_tangent(record: TextureRecord, place: Place, normal: vec3<f32>) ->
 
 // Unit tangent of the mesh, or zero; w: the sign of the bitangent.
 fn normal_map_tangent_of_mesh(place: Place, normal: vec3<f32>) -> vec4<f32> {
-    if params.texels.corner_tangent != NO_WORDS {
-        let at = params.texels.corner_tangent + 12u * place.triangle;
+    if columns.corner_tangent != NO_WORDS {
+        let at = columns.corner_tangent + 12u * place.triangle;
         let a = words_vec3(at);
         let along = (a + (words_vec3(at + 4u) - a) * place.u) + (words_vec3(at + 8u) - a) * place.v;
         let tangent = along - normal * dot(normal, along);

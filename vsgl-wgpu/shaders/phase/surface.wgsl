@@ -1,4 +1,4 @@
-//! needs: data/words, math/vec, phase/anisotropy, phase/footprint, phase/normal_map, phase/texture
+//! needs: data/words, math/vec, phase/anisotropy, phase/color, phase/footprint, phase/normal_map, phase/texture
 // The surface at a hit. Twin of `vsgl-core/src/phase/surface.rs`.
 //
 // Reads `corner` and `corner_normal`, which the entry binds, and its constants TEXTURES, NORMAL_MAPS, COLORS, UNLIT_ONES,
@@ -48,8 +48,8 @@ fn surface_at_hit(place: Place, direction: vec3<f32>) -> Surface {
         }
     }
     if COLORS {
-        if params.texels.corner_color != NO_WORDS {
-            base = base * surface_color(place).xyz;
+        if columns.corner_color != NO_WORDS {
+            base = base * color_of_vertices(place).xyz;
         }
     }
     var normal = smooth_normal;
@@ -117,15 +117,6 @@ fn surface_emitted(record: MaterialRecord, place: Place, direction: vec3<f32>) -
         }
     }
     return record.emission;
-}
-
-// Colour and opacity of the vertices at a place.
-fn surface_color(place: Place) -> vec4<f32> {
-    let at = params.texels.corner_color + 12u * place.triangle;
-    let a = vec4(words_vec3(at), words_f32(at + 3u));
-    let b = vec4(words_vec3(at + 4u), words_f32(at + 7u));
-    let c = vec4(words_vec3(at + 8u), words_f32(at + 11u));
-    return (a + (b - a) * place.u) + (c - a) * place.v;
 }
 
 fn surface_interpolate(corners: array<f32, 9>, u: f32, v: f32) -> vec3<f32> {

@@ -10,7 +10,7 @@ struct TextureCorners {
 
 fn texture_corners(record: TextureRecord, triangle: u32) -> TextureCorners {
     let second = (record.mode & SECOND_SET) != 0u;
-    let column = select(params.texels.corner_texcoord, params.texels.corner_texcoord_second, second);
+    let column = select(columns.corner_texcoord, columns.corner_texcoord_second, second);
     let at = column + 6u * triangle;
     let first = vec2(words_f32(at), words_f32(at + 1u));
     let b = vec2(words_f32(at + 2u), words_f32(at + 3u)) - first;
@@ -140,7 +140,7 @@ fn texture_scaled(texel: vec4<f32>, srgb: bool) -> vec4<f32> {
 fn texture_load(record: TextureRecord, image: TextureImage, x: f32, y: f32, srgb: bool) -> vec4<f32> {
     let column = texture_wrap(x, image.width, record.mode & 3u);
     let row = texture_wrap(y, image.height, (record.mode >> 2u) & 3u);
-    let word = words_at(params.texels.texel + image.first + row * image.width + column);
+    let word = words_at(columns.texel + image.first + row * image.width + column);
     let code = vec4(word & 255u, (word >> 8u) & 255u, (word >> 16u) & 255u, word >> 24u);
     if srgb {
         return vec4(texture_srgb(code.x), texture_srgb(code.y), texture_srgb(code.z), f32(code.w));
@@ -149,7 +149,7 @@ fn texture_load(record: TextureRecord, image: TextureImage, x: f32, y: f32, srgb
 }
 
 fn texture_srgb(code: u32) -> f32 {
-    return bitcast<f32>(words_at(params.texels.srgb + code));
+    return bitcast<f32>(words_at(columns.srgb + code));
 }
 
 // Index of a texel, 0 .. size, for any coordinate.

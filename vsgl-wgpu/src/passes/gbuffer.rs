@@ -1,8 +1,8 @@
 //! What the camera sees.
 
-use super::{flag, scene_columns, surface_constants};
+use super::{flag, masks, scene_columns, surface_constants};
 use crate::kernel::{Constant, KernelId};
-use crate::params::{TexelLayout, View};
+use crate::params::View;
 use crate::raster;
 use crate::recorder::{Groups, Recorder};
 use crate::res::WgpuRes;
@@ -17,7 +17,6 @@ use vsgl_core::settings::Primary;
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 struct Params {
     view: View,
-    texels: TexelLayout,
     nodes: u32,
     padding: [u32; 3],
 }
@@ -32,7 +31,7 @@ fn constants(plan: &GBufferPlan, textures: bool) -> Vec<Constant> {
 /// The pipelines that a plan needs.
 pub(crate) fn kernels(plan: &GBufferPlan) -> Vec<KernelId> {
     let mut kernels = vec![
-        KernelId::new("entry/gbuffer", "visibility", &[]),
+        KernelId::new("entry/gbuffer", "visibility", &masks(&plan.surface)),
         KernelId::new("entry/gbuffer", "surface", &constants(plan, true)),
     ];
     if plan.primary == Primary::Raster {
@@ -70,7 +69,6 @@ pub(crate) fn record(
     )?;
     let params = Params {
         view: View::from(view),
-        texels: TexelLayout::of(scene),
         nodes: scene.len("node") as u32,
         padding: [0; 3],
     };
@@ -85,7 +83,7 @@ pub(crate) fn record(
     if plan.primary == Primary::Raster && raster::fits(view) {
         raster::record(recorder, scene, view, &made)?;
     } else {
-        let visibility = context.kernel("entry/gbuffer", "visibility", &[])?;
+        let visibility = context.kernel("entry/gbuffer", "visibility", &masks(&plan.surface))?;
         recorder.dispatch(&visibility, &params, &bound, Groups::Items(count))?;
     }
     let constants = constants(plan, scene.len("texture") > 0);
@@ -101,14 +99,6 @@ mod tests {
 
     #[test]
     fn parameters_lie_alike() {
-        twins!(
-            "entry/gbuffer",
-            "Params",
-            Params {
-                view,
-                texels,
-                nodes
-            }
-        );
+        twins!("entry/gbuffer", "Params", Params { view, nodes });
     }
 }

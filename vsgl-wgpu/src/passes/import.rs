@@ -162,6 +162,8 @@ fn bound<'a>(
         ),
         ("node", scene.bind("node")),
         ("corner", scene.bind("corner")),
+        ("texels", scene.bind("texel")),
+        ("columns", scene.layout()),
     ]
 }
 

@@ -37,6 +37,11 @@ fn flag(value: bool) -> f64 {
     f64::from(u8::from(value))
 }
 
+/// Whether rays pass where alpha masks leave surfaces out, as a constant of `phase/mask.wgsl`.
+fn masks(plan: &SurfacePlan) -> [Constant; 1] {
+    [("MASKS", flag(plan.masks))]
+}
+
 /// What is read of surfaces, as constants of `phase/surface.wgsl`; without what reads textures where a plan made by hand asks for
 /// some that the scene has not.
 fn surface_constants(plan: &SurfacePlan, textures: bool) -> [Constant; 5] {
@@ -49,11 +54,16 @@ fn surface_constants(plan: &SurfacePlan, textures: bool) -> [Constant; 5] {
     ]
 }
 
+/// The columns of a scene that are words, under the names that shaders bind them by.
+fn words(scene: &WgpuRes<SceneData>) -> [(&'static str, Binding<'_>); 2] {
+    [("texels", scene.bind("texel")), ("columns", scene.layout())]
+}
+
 /// The columns of a scene, under the names that shaders bind them by.
 fn scene_columns(scene: &WgpuRes<SceneData>) -> Vec<(&'static str, Binding<'_>)> {
     let mut bound = ["node", "corner", "corner_normal"]
         .map(|name| (name, scene.bind(name)))
         .to_vec();
-    bound.push(("texels", scene.bind("texel")));
+    bound.extend(words(scene));
     bound
 }

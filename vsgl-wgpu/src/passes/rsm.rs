@@ -1,8 +1,7 @@
 //! What the lights see.
 
-use super::{flag, scene_columns, surface_constants};
+use super::{flag, masks, scene_columns, surface_constants};
 use crate::kernel::{Constant, KernelId};
-use crate::params::TexelLayout;
 use crate::recorder::{Groups, Recorder};
 use crate::res::WgpuRes;
 use bytemuck::{Pod, Zeroable};
@@ -17,7 +16,6 @@ use vsgl_core::scene::Light;
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 struct Params {
     map: MapRecord,
-    texels: TexelLayout,
     nodes: u32,
     size: u32,
     first: u32,
@@ -33,7 +31,7 @@ fn constants(plan: &RsmPlan, textures: bool) -> Vec<Constant> {
 /// The pipelines that a plan needs.
 pub(crate) fn kernels(plan: &RsmPlan) -> Vec<KernelId> {
     vec![
-        KernelId::new("entry/rsm", "visibility", &[]),
+        KernelId::new("entry/rsm", "visibility", &masks(&plan.surface)),
         KernelId::new("entry/rsm", "surface", &constants(plan, true)),
     ]
 }
@@ -65,7 +63,7 @@ pub(crate) fn record(
             ("tangent", 16, stretched),
         ],
     )?;
-    let visibility = context.kernel("entry/rsm", "visibility", &[])?;
+    let visibility = context.kernel("entry/rsm", "visibility", &masks(&plan.surface))?;
     let constants = constants(plan, scene.len("texture") > 0);
     let surface = context.kernel("entry/rsm", "surface", &constants)?;
     let mut bound = scene_columns(scene);
@@ -80,7 +78,6 @@ pub(crate) fn record(
     for (index, map) in maps.iter().enumerate() {
         let params = Params {
             map: *map,
-            texels: TexelLayout::of(scene),
             nodes: scene.len("node") as u32,
             size: plan.size,
             first: (index as u64 * side) as u32,
@@ -104,7 +101,6 @@ mod tests {
             "Params",
             Params {
                 map,
-                texels,
                 nodes,
                 size,
                 first,

@@ -190,6 +190,8 @@ impl Shading {
         let mut bound = vec![
             ("node", scene.bind("node")),
             ("corner", scene.bind("corner")),
+            ("texels", scene.bind("texel")),
+            ("columns", scene.layout()),
             ("triangle", gbuffer.bind("triangle")),
             ("receiver", gbuffer.bind("position")),
             ("grazing", gbuffer.bind("grazing")),
@@ -287,8 +289,9 @@ impl Bounce {
     }
 }
 
-fn direct_constants(plan: &ShadePlan) -> [Constant; 2] {
+fn direct_constants(plan: &ShadePlan) -> [Constant; 3] {
     [
+        ("MASKS", flag(plan.masks)),
         ("GLOSSY_RECEIVERS", flag(plan.glossy_receivers)),
         ("ANISOTROPIC_RECEIVERS", flag(plan.anisotropic_receivers)),
     ]
@@ -316,7 +319,7 @@ pub(crate) fn kernels(plan: &ShadePlan, clusters: bool) -> Vec<KernelId> {
 }
 
 /// The constants of the kernels that shade by virtual lights; numbers as in `phase/reflect.wgsl`.
-fn constants(plan: &ShadePlan) -> [Constant; 8] {
+fn constants(plan: &ShadePlan) -> [Constant; 9] {
     let emission = match plan.emission {
         Emission::Cosine => 0.0,
         Emission::Sg => 1.0,
@@ -337,6 +340,7 @@ fn constants(plan: &ShadePlan) -> [Constant; 8] {
         ("ANISOTROPIC_RECEIVERS", flag(plan.anisotropic_receivers)),
         ("ANISOTROPIC_SENDERS", flag(plan.anisotropic_senders)),
         ("RAYS", flag(plan.occlusion == OcclusionMethod::Rays)),
+        ("MASKS", flag(plan.masks)),
         ("EMISSION", emission),
         ("DIFFUSE", diffuse),
         ("GLOSSY", glossy),

@@ -272,9 +272,10 @@ fn refraction(ior: f32) -> f32 {
 
 fn note_ignored(source: &json::Material, warnings: &mut Warnings) {
     match source.alpha_mode {
-        Checked::Valid(AlphaMode::Opaque) => {}
-        Checked::Valid(AlphaMode::Mask) => warnings.add("alpha masks are ignored: drawn opaque"),
-        Checked::Valid(AlphaMode::Blend) => warnings.add("alpha blending is ignored: drawn opaque"),
+        Checked::Valid(AlphaMode::Opaque | AlphaMode::Mask) => {}
+        Checked::Valid(AlphaMode::Blend) => warnings.add(
+            "alpha blending is shown as a mask: surfaces are there where they are at least half opaque",
+        ),
         Checked::Invalid => warnings.add("unknown alpha modes are ignored"),
     }
 }

@@ -133,7 +133,7 @@ fn what_is_ignored_is_said_once() {
         scene.warnings,
         [
             "extension `KHR_materials_sheen` is ignored",
-            "alpha blending is ignored: drawn opaque",
+            "alpha blending is shown as a mask: surfaces are there where they are at least half opaque",
             "textures without a PNG, JPEG or WebP image are left out",
         ]
     );
