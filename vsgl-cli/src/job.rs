@@ -177,13 +177,14 @@ fn read_scene(name: &str, args: &SceneArgs) -> Result<(Scene, u64)> {
         options.limits.set(limit, value)?;
     }
     options.scene.clone_from(&args.part);
+    options.time = args.time;
     let Some(sample) = name.strip_prefix("sample:") else {
         let scene = gltf::load_with(Path::new(name), &options)?;
         return Ok((scene, options.limits.overlap));
     };
-    if args.part.is_some() || !args.limit.is_empty() {
+    if args.part.is_some() || args.time.is_some() || !args.limit.is_empty() {
         return Err(Failure::Usage(
-            "--scene and --limit are about files; leave them out with a sample".into(),
+            "--scene, --time and --limit are about files; leave them out with a sample".into(),
         ));
     }
     Ok((samples::by_name(sample)?, options.limits.overlap))

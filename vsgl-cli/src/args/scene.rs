@@ -1,7 +1,7 @@
 //! Arguments that choose the scene, its lights, the camera and the size of the picture.
 
 use super::settings::key_value;
-use super::words::{LookAt, Point, Size, Spot, Sun, field_of_view};
+use super::words::{LookAt, Point, Size, Spot, Sun, field_of_view, seconds};
 use clap::Args;
 use vsgl_core::scene::gltf::Limits;
 
@@ -15,6 +15,9 @@ pub struct SceneArgs {
     /// Scene of a file that holds several, by name or by index from 0 [default: the one that the file names]
     #[arg(long = "scene", id = "scene_of_file", value_name = "NAME|INDEX")]
     pub part: Option<String>,
+    /// Show the file as its animations have it at this time [default: at rest]
+    #[arg(long, value_name = "SECONDS", allow_hyphen_values = true, value_parser = seconds)]
+    pub time: Option<f64>,
     /// Accept more, or less, of something in the file than usual (repeatable); --help lists what
     #[arg(long, value_name = "NAME=VALUE", value_parser = key_value, long_help = limits_help())]
     pub limit: Vec<(String, String)>,

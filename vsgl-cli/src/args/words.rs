@@ -211,6 +211,17 @@ pub(super) fn field_of_view(word: &str) -> Result<f64, String> {
         .ok_or_else(|| "give a full angle from 0.01 to 170 degrees".into())
 }
 
+/// Reads a time in seconds.
+///
+/// # Errors
+/// What would be accepted.
+pub(super) fn seconds(word: &str) -> Result<f64, String> {
+    let seconds = word.parse().ok();
+    seconds
+        .filter(|s: &f64| s.is_finite())
+        .ok_or_else(|| "give a number of seconds".into())
+}
+
 fn point(word: &str) -> Result<[f64; 3], String> {
     let problem = || format!("`{word}` is no point; give three numbers x,y,z in metres");
     let coordinates = numbers(word).ok_or_else(problem)?;

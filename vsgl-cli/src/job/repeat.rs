@@ -14,6 +14,9 @@ pub(super) fn scene_words(name: &str, args: &SceneArgs) -> Vec<String> {
     if let Some(part) = &args.part {
         words.extend(["--scene".into(), part.clone()]);
     }
+    if let Some(time) = args.time {
+        words.push(format!("--time={time}"));
+    }
     for (limit, value) in &args.limit {
         words.extend(["--limit".into(), format!("{limit}={value}")]);
     }

@@ -14,7 +14,6 @@ use super::skins::{Influences, Skins};
 use super::warnings::Warnings;
 use crate::scene::{Material, Mesh};
 use glam::{DMat4, DVec3, Vec2, Vec3, Vec4};
-use gltf::json::Node;
 use std::collections::HashMap;
 
 /// What the meshes of the file come to.
@@ -71,7 +70,7 @@ pub(super) fn geometry(
             None => None,
         };
         let copies = Copies::of(document, buffers, place.node, place.index)?;
-        let form = forms.read(mesh.value(), place.node, joints.is_some(), warnings)?;
+        let form = forms.read(mesh.value(), place.weights, joints.is_some(), warnings)?;
         shown.push((form, place, joints, copies));
     }
     let mut instances = Vec::new();
@@ -122,17 +121,16 @@ struct Forms<'a> {
 }
 
 impl Forms<'_> {
-    /// The place of mesh `index`, which exists, as `node` shows it.
+    /// The place of mesh `index`, which exists, with these weights of its morph targets, else its own.
     fn read(
         &mut self,
         index: usize,
-        node: &Node,
+        weights: Option<&[f32]>,
         bent: bool,
         warnings: &mut Warnings,
     ) -> Result<usize> {
         let mesh = &self.reader.document.root.meshes[index];
-        let weights = node.weights.as_deref().or(mesh.weights.as_deref());
-        let weights = weights.unwrap_or_default();
+        let weights = weights.or(mesh.weights.as_deref()).unwrap_or_default();
         let bits = weights.iter().map(|w| w.to_bits()).collect();
         let key = (index, bits, bent);
         if let Some(&known) = self.places.get(&key) {

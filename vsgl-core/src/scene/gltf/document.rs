@@ -37,13 +37,13 @@ impl Document {
         check_version(&value)?;
         let nodes = value.get_mut("nodes").map(Value::take).unwrap_or_default();
         drop(value);
-        let root: Root = deserialize::from_slice(json).map_err(|e| malformed(&e))?;
+        let root: Root = match deserialize::from_slice(json) {
+            Ok(root) => root,
+            Err(e) => without_loose_channels(json).ok_or_else(|| malformed(&e))?,
+        };
         check_required(&root.extensions_required)?;
         for name in ignored(&root) {
             warnings.add(format!("extension {} is ignored", quoted(name)));
-        }
-        if !root.animations.is_empty() {
-            warnings.add("animations are ignored: the scene is shown at rest");
         }
         Ok(Self { root, nodes })
     }
@@ -130,6 +130,16 @@ impl Document {
             ignored.map(|name| printable(name)).collect(),
         )
     }
+}
+
+/// The file without those channels of animations that move no node: the specification allows them, the parser does not.
+fn without_loose_channels(json: &[u8]) -> Option<Root> {
+    let mut value: Value = deserialize::from_slice(json).ok()?;
+    for animation in value.get_mut("animations")?.as_array_mut()? {
+        let channels = animation.get_mut("channels")?.as_array_mut()?;
+        channels.retain(|channel| !channel["target"]["node"].is_null());
+    }
+    deserialize::from_value(value).ok()
 }
 
 /// So many names at most are listed in a message.

@@ -12,11 +12,12 @@
 //! | `meshopt…`, `draco` | packed bytes and triangles |
 //! | `buffers`, `accessor` | elements of vertex attributes and indices |
 //! | `attributes`, `morph`, `topology`, `sharing`, `primitive` | triangles of one primitive in its own space |
-//! | `nodes`, `skins`, `instancing`, `frames`, `assemble` | the tree of nodes, and all triangles in one space |
+//! | `nodes`, `animation`, `skins`, `instancing`, `frames`, `assemble` | the tree of nodes, and all triangles in one space |
 //! | `materials`, `textures`, `images` | surfaces |
 //! | `lights`, `cameras` | what stands in the nodes besides meshes |
 
 mod accessor;
+mod animation;
 mod assemble;
 mod attributes;
 mod buffers;
@@ -55,6 +56,7 @@ mod tests;
 
 use super::{Scene, Source};
 use crate::error::Result;
+use animation::Pose;
 use buffers::Buffers;
 use container::Container;
 use document::Document;
@@ -78,6 +80,8 @@ pub use options::Options;
 /// Orthographic cameras become perspective ones of the same view from far behind, with a warning: what lies behind the
 /// camera shows, and parallels meet by half a degree.
 ///
+/// Animations are ignored unless a time is asked for: see [`Options::time`].
+///
 /// Node transforms are composed in f64. A scene without triangles is no error here.
 ///
 /// # Errors
@@ -86,7 +90,7 @@ pub fn load(path: &Path) -> Result<Scene> {
     load_with(path, &Options::default())
 }
 
-/// As [`load`], with other limits, or another scene of the file.
+/// As [`load`], with other limits, another scene of the file, or at a time of its animations.
 ///
 /// # Errors
 /// As [`load`]; [`Error::Setting`](crate::Error::Setting) if the file has not the scene that is asked for.
@@ -102,9 +106,16 @@ fn read(path: &Path, options: &Options) -> fault::Result<Scene> {
     let document = Document::parse(&json, limits, &mut warnings)?;
     drop(json);
     let scene = document.scene(options.scene.as_deref(), &mut warnings)?;
-    let tree = nodes::walk(&document, scene)?;
-    let placed = &tree.placed;
     let buffers = Buffers::new(&document, &files, bin);
+    let pose = match options.time {
+        Some(time) => Pose::at(&document, &buffers, time)?,
+        None => Pose::default(),
+    };
+    if options.time.is_none() && !document.root.animations.is_empty() {
+        warnings.add("animations are ignored: the scene is shown at rest; a time can be chosen");
+    }
+    let tree = nodes::walk(&document, scene, &pose)?;
+    let placed = &tree.placed;
     let geometry = assemble::geometry(&document, &buffers, &tree, limits, &mut warnings)?;
     let (textures, images) = images::decode(&document, &buffers, &files, &geometry.images, limits)?;
     let origin = geometry.origin;

@@ -1,5 +1,6 @@
 //! The tree of nodes, flattened.
 
+use super::animation::{Change, Pose};
 use super::document::{Document, lookup};
 use super::fault::{Fault, Result};
 use glam::{DMat4, DQuat, DVec3, DVec4, Vec3};
@@ -12,6 +13,8 @@ pub(super) const LARGEST: f64 = 1e9;
 pub(super) struct Placed<'a> {
     pub(super) index: usize,
     pub(super) node: &'a Node,
+    /// Weights of the morph targets of its mesh, if they are not the mesh's own.
+    pub(super) weights: Option<&'a [f32]>,
     pub(super) world: DMat4,
 }
 
@@ -33,7 +36,11 @@ pub(super) struct Tree<'a> {
 }
 
 /// Goes from the roots of a scene, which exists, to all its nodes; without one from every node that has no parent.
-pub(super) fn walk(document: &Document, scene: Option<usize>) -> Result<Tree<'_>> {
+pub(super) fn walk<'a>(
+    document: &'a Document,
+    scene: Option<usize>,
+    pose: &'a Pose,
+) -> Result<Tree<'a>> {
     let root = &document.root;
     let mut worlds = vec![
         None;
@@ -53,7 +60,8 @@ pub(super) fn walk(document: &Document, scene: Option<usize>) -> Result<Tree<'_>
     }
     while let Some((index, parent)) = waiting.pop() {
         let node = &document.root.nodes[index];
-        let world = parent * local(document, index)?;
+        let change = pose.of(index);
+        let world = parent * local(document, index, change)?;
         if !world.is_finite() {
             return Err(Fault::new(
                 format!("nodes[{index}]"),
@@ -69,7 +77,13 @@ pub(super) fn walk(document: &Document, scene: Option<usize>) -> Result<Tree<'_>
             *slot = Some(world);
         }
         if node.mesh.is_some() || node.camera.is_some() || node.extensions.is_some() {
-            placed.push(Placed { index, node, world });
+            let moved = change.and_then(|change| change.weights.as_deref());
+            placed.push(Placed {
+                index,
+                node,
+                weights: moved.or(node.weights.as_deref()),
+                world,
+            });
         }
     }
     placed.sort_by_key(|p| p.index);
@@ -117,14 +131,21 @@ fn parentless(nodes: &[Node]) -> Vec<(usize, String)> {
 }
 
 /// The transform of a node to its parent's space, in the precision of the JSON text.
-fn local(document: &Document, index: usize) -> Result<DMat4> {
+fn local(document: &Document, index: usize, change: Option<&Change>) -> Result<DMat4> {
     let node = &document.nodes[index];
     if let Some(m) = numbers::<16>(&node["matrix"]) {
+        // Animations leave such nodes alone.
         return Ok(DMat4::from_cols_array(&m));
     }
-    let translation = numbers(&node["translation"]).map_or(DVec3::ZERO, DVec3::from_array);
-    let scale = numbers(&node["scale"]).map_or(DVec3::ONE, DVec3::from_array);
-    let rotation = numbers(&node["rotation"]).map_or(DVec4::W, DVec4::from_array);
+    let translation = change.and_then(|c| c.translation);
+    let translation = translation.or_else(|| numbers(&node["translation"]));
+    let translation = translation.map_or(DVec3::ZERO, DVec3::from_array);
+    let scale = change.and_then(|c| c.scale);
+    let scale = scale.or_else(|| numbers(&node["scale"]));
+    let scale = scale.map_or(DVec3::ONE, DVec3::from_array);
+    let rotation = change.and_then(|c| c.rotation);
+    let rotation = rotation.or_else(|| numbers(&node["rotation"]));
+    let rotation = rotation.map_or(DVec4::W, DVec4::from_array);
     let unit = rotation.try_normalize().ok_or_else(|| {
         Fault::new(
             format!("nodes[{index}].rotation"),

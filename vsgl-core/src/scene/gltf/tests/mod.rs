@@ -4,6 +4,7 @@ mod geometry;
 mod hostile;
 mod images;
 mod materials;
+mod moments;
 #[cfg(feature = "draco")]
 mod packed;
 mod resources;
