@@ -21,6 +21,7 @@ pub(crate) struct Single {
 pub(crate) fn plan(emission: Emission, diffuse: DiffuseForm, glossy: GlossyForm) -> ShadePlan {
     ShadePlan {
         bounce: true,
+        emitters: false,
         glossy_receivers: true,
         glossy_senders: true,
         anisotropic_receivers: false,

@@ -204,6 +204,30 @@ fn ranges_of_all_sizes() {
 }
 
 #[test]
+fn surfaces_that_shine() {
+    for emission in [1e-30, 1e-6, 1.0, 1e6, 1e30] {
+        let shot = materials(|m| {
+            m.emission = [emission; 3];
+            m.double_sided = emission < 1.0;
+        });
+        sound(&format!("emission {emission:e}"), &shot);
+        let mut alone = shot;
+        alone.lights.clear();
+        let bounced = sound(&format!("emission {emission:e} alone"), &alone);
+        assert_eq!(bounced, 0.0, "light of emitters is direct");
+    }
+    let one = materials(|m| m.emission = [0.0, 3.0, 0.0]);
+    for scale in [1e-3, 1e6] {
+        let shot = one.clone().placed(Quat::IDENTITY, scale, Vec3::ZERO);
+        sound(&format!("emission, scale {scale}"), &shot);
+    }
+    for (lights, rsm) in [(1, 1), (7, 3), (65_536, 8), (33, 300)] {
+        let words = format!("lights={lights} rsm={rsm}");
+        sound(&words, &one.clone().size(8, 5).with(&words));
+    }
+}
+
+#[test]
 fn suns_along_axes_and_walls() {
     for axis in [
         Vec3::X,

@@ -4,9 +4,11 @@
 
 use std::path::{Path, PathBuf};
 use vsgl_core::data::SceneData;
-use vsgl_core::glam::Vec3;
+use vsgl_core::glam::{Vec2, Vec3};
 use vsgl_core::parity::{Origin, Party, Stage, Subject, Tolerance, chain};
-use vsgl_core::scene::{Camera, DirectionalLight, Light, PointLight, SpotLight, gltf};
+use vsgl_core::scene::{
+    Camera, DirectionalLight, Light, PointLight, SpotLight, Texture, TextureRef, gltf,
+};
 use vsgl_cpu::CpuBackend;
 use vsgl_tests::assets::assets;
 use vsgl_tests::gpu::{Tier, device};
@@ -201,6 +203,56 @@ fn lights_of_all_kinds() {
     }
 }
 
+/// Cornell with walls that shine, one of them by a texture, beside its lamp.
+fn shining(settings: &str) -> Shot {
+    let mut shot = Shot::sample("cornell").with(settings);
+    let scene = &mut shot.scene;
+    let count = scene.mesh.positions.len();
+    let texcoord = |i: usize| Vec2::new((i % 3) as f32, (i % 5) as f32 / 4.0);
+    scene.mesh.texcoords = (0..count).map(texcoord).collect();
+    scene.textures = vec![Texture {
+        width: 2,
+        height: 2,
+        texels: vec![[255, 128, 0, 255], [0; 4], [20, 20, 255, 255], [90; 4]],
+    }];
+    scene.materials[0].emission = [0.5, 1.0, 2.0];
+    scene.materials[1].emission = [3.0, 2.0, 1.0];
+    scene.materials[1].double_sided = true;
+    scene.materials[1].emissive_texture = Some(TextureRef::new(0));
+    shot
+}
+
+#[test]
+fn surfaces_that_shine() {
+    let mut brushed = shining("lights=64 rsm=64");
+    brushed
+        .scene
+        .materials
+        .iter_mut()
+        .for_each(|m| m.anisotropy = 0.6);
+    agree(
+        "brushed surfaces that shine",
+        &brushed,
+        Tier::Lavapipe,
+        true,
+    );
+    for settings in [
+        "lights=64 rsm=64",
+        "lights=64 rsm=64 occlusion=none",
+        "lights=40 rsm=32 clustering=filtered",
+        "lights=40 rsm=300 emission=sg",
+        "method=vpl rsm=8",
+    ] {
+        let mut shot = shining(settings);
+        for lights in ["with its lamp", "alone"] {
+            let name = format!("surfaces that shine, {lights}, {settings}");
+            agree(&name, &shot, Tier::Lavapipe, true);
+            agree(&name, &shot, Tier::Lavapipe, false);
+            shot.lights.clear();
+        }
+    }
+}
+
 #[test]
 fn lights_of_all_kinds_elsewhere() {
     for (name, lights) in kinds_of_lights() {
@@ -209,6 +261,9 @@ fn lights_of_all_kinds_elsewhere() {
         agree(name, &shot, Tier::SwiftShader, true);
         agree(name, &shot, Tier::Hardware, false);
     }
+    let shot = shining("lights=64 rsm=64");
+    agree("surfaces that shine", &shot, Tier::SwiftShader, true);
+    agree("surfaces that shine", &shot, Tier::Hardware, false);
 }
 
 #[test]

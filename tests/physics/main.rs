@@ -2,6 +2,7 @@
 
 mod convergence;
 mod emission;
+mod emitters;
 mod energy;
 mod furnace;
 mod invariance;

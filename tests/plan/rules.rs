@@ -1,5 +1,6 @@
 //! Each rule with its reason.
 
+use vsgl_core::data::map_kind;
 use vsgl_core::glam::Vec3;
 use vsgl_core::plan::{Plan, SurfacePlan};
 use vsgl_core::scene::{DirectionalLight, Light, Material, PointLight, SpotLight, TextureRef};
@@ -146,6 +147,39 @@ fn many_maps_are_smaller_maps() {
 }
 
 #[test]
+fn surfaces_that_shine_are_lights() {
+    let mut shot = shot("rsm=512");
+    assert_eq!(
+        reason(&shot.plan(), "light of surfaces"),
+        Some((false, "no surface shines"))
+    );
+    assert!(
+        shot.frame()
+            .rsm
+            .expect("a map")
+            .map
+            .iter()
+            .all(|m| m.kind == map_kind::CONE)
+    );
+    shot.scene.materials[0].emission = [1.0, 0.5, 0.0];
+    let plan = shot.plan();
+    assert!(reason(&plan, "light of surfaces").is_some_and(|(runs, _)| runs));
+    assert!(plan.shade.emitters);
+    let bounce = plan.bounce.as_ref().expect("a bounce");
+    assert!(bounce.rsm.lights && bounce.rsm.emitters && bounce.rsm.size == 512);
+    // Alone, they have as many texels as points.
+    shot.lights.clear();
+    let plan = shot.plan();
+    assert_eq!(reason(&plan, "bounce"), Some((true, "surfaces shine")));
+    let bounce = plan.bounce.as_ref().expect("a bounce");
+    assert!(!bounce.rsm.lights && bounce.rsm.emitters && bounce.rsm.size == 256);
+    let frame = shot.frame();
+    assert_eq!(frame.rsm.expect("a map").map[0].kind, map_kind::EMITTERS);
+    assert!(frame.vsgls.expect("clusters").count > 0);
+    assert!(matte(shot).plan().bounce.is_none());
+}
+
+#[test]
 fn a_cone_too_wide_for_one_map_takes_five() {
     let maps = |outer: f32| {
         let mut shot = shot("rsm=16");
@@ -263,7 +297,10 @@ fn without_lights_only_the_camera_reads_surfaces() {
     let mut dark = Shot::of(vsgl_tests::surfaces::everything(true, 4.0));
     dark.lights.clear();
     let plan = dark.plan();
-    assert!(plan.bounce.is_none() && plan.gbuffer.surface.emission);
+    let bounce = plan.bounce.as_ref().expect("light of surfaces");
+    let surface = &bounce.rsm.surface;
+    assert!(!bounce.rsm.lights && !surface.textures && !surface.normal_maps);
+    assert!(plan.gbuffer.surface.emission);
     let image = dark.image();
     assert!(
         image.direct.iter().any(|rgb| rgb[0] > 0.0),

@@ -92,13 +92,15 @@ impl Job {
         .checked()?;
         let facts = SceneFacts::new(&read, &lights, &camera);
         let plan = Plan::new(&facts, &settings)?;
-        if facts.triangles > 0 && lights.is_empty() {
-            let shown = if facts.seen.emission || facts.seen.unlit {
+        if facts.triangles > 0 && lights.is_empty() && facts.emitters == 0 {
+            let shown = if facts.seen.unlit {
                 "nothing but what shines by itself will be seen"
             } else {
                 "the picture will be black"
             };
-            warnings.push(format!("no light: {shown}; add one with --spot"));
+            warnings.push(format!(
+                "no light: {shown}; add one with --spot, --point or --sun"
+            ));
         }
         Ok(Self {
             overlap,

@@ -1,7 +1,7 @@
 //! What will run, decided once from the scene's facts and the settings, with a reason for each decision.
 
 use crate::error::{Error, Result};
-use crate::scene::{SceneFacts, SurfaceFacts};
+use crate::scene::{EMITTER_POINTS, SceneFacts, SurfaceFacts};
 use crate::settings::{
     Clustering, DiffuseForm, Emission, GlossyForm, Method, OcclusionMethod, PdfMethod, Primary,
     Settings, SharpnessFit, Variance,
@@ -75,6 +75,10 @@ pub struct BouncePlan {
 /// The reflective shadow maps.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RsmPlan {
+    /// Maps of the lights.
+    pub lights: bool,
+    /// A map of the surfaces that shine.
+    pub emitters: bool,
     /// Texels along a side.
     pub size: u32,
     /// Write the specular columns.
@@ -87,6 +91,8 @@ impl RsmPlan {
     /// Most texels of several maps together: so many cost about as much as four maps of the default size, and their columns
     /// are within the smallest buffers that GPUs promise.
     pub const TEXELS_MAX: u64 = 1 << 20;
+    /// Side of a map that holds all points of the surfaces that shine.
+    pub const EMITTERS_SIDE: u32 = EMITTER_POINTS.isqrt() as u32;
 }
 
 /// The density on the texels.
@@ -126,6 +132,8 @@ pub struct ClusterPlan {
 pub struct ShadePlan {
     /// Light of virtual lights.
     pub bounce: bool,
+    /// Some of them are surfaces that shine: their light is direct.
+    pub emitters: bool,
     /// The receivers' specular part, for direct and indirect light.
     pub glossy_receivers: bool,
     /// The senders' specular part.
@@ -153,19 +161,34 @@ impl Plan {
     /// [`Error::Setting`] where settings contradict each other.
     pub fn new(facts: &SceneFacts, settings: &Settings) -> Result<Self> {
         let mut reasons = Reasons::default();
+        let shines = facts.emitters > 0;
         let lit = reasons.decide(
             "bounce",
             &[
                 (facts.triangles > 0, "the scene has no triangles"),
-                (facts.lights > 0, "the scene has no lights"),
+                (facts.lights > 0 || shines, "the scene has no lights"),
                 (
-                    facts.reflecting_senders,
+                    facts.reflecting_senders || shines,
                     "no surface that the lights may reach reflects anything",
                 ),
             ],
-            "lights reach surfaces that reflect",
+            if facts.reflecting_senders {
+                "lights reach surfaces that reflect"
+            } else {
+                "surfaces shine"
+            },
         );
-        let rsm = lit.then(|| reasons.map_size(facts.maps, settings.rsm));
+        let shines = lit
+            && reasons.decide(
+                "light of surfaces",
+                &[(shines, "no surface shines")],
+                "surfaces shine, each point of them a virtual light",
+            );
+        let reflected = lit && facts.reflecting_senders;
+        let rsm = lit.then(|| {
+            let maps = if reflected { facts.maps } else { 0 };
+            reasons.map_size(maps, shines, settings.rsm)
+        });
         let senders = lit
             && reasons.decide(
                 "specular lobes of the lights",
@@ -240,6 +263,8 @@ impl Plan {
             );
         let bounce = rsm.map(|size| BouncePlan {
             rsm: RsmPlan {
+                lights: reflected,
+                emitters: shines,
                 size,
                 glossy: senders,
                 surface: sent,
@@ -262,6 +287,7 @@ impl Plan {
         });
         let shade = ShadePlan {
             bounce: lit,
+            emitters: shines,
             glossy_receivers: receivers,
             glossy_senders: senders,
             anisotropic_receivers: stretched,
@@ -384,8 +410,18 @@ impl Reasons {
     }
 
     /// Texels along a side of a map: as wanted, but halved until all maps together are within [`RsmPlan::TEXELS_MAX`].
-    /// One map is as large as wanted.
-    fn map_size(&mut self, maps: u32, wanted: u32) -> u32 {
+    /// One map is as large as wanted; a map of emitters alone has no more texels than they have points.
+    fn map_size(&mut self, of_lights: u32, emitters: bool, wanted: u32) -> u32 {
+        let maps = of_lights.saturating_add(u32::from(emitters));
+        if of_lights == 0 && wanted > RsmPlan::EMITTERS_SIDE {
+            let side = RsmPlan::EMITTERS_SIDE;
+            self.0.push(Reason {
+                topic: "smaller maps",
+                runs: true,
+                why: format!("surfaces that shine have {side}² points in all"),
+            });
+            return side;
+        }
         let texels = |side: u32| u64::from(maps) * u64::from(side) * u64::from(side);
         let mut side = wanted;
         while maps > 1 && side > 1 && texels(side) > RsmPlan::TEXELS_MAX {

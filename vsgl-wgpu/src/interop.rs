@@ -74,6 +74,7 @@ pub fn host_plan(settings: &Settings, lights: usize, glossy: bool) -> Result<Pla
         triangles: 1,
         lights,
         maps: 1,
+        emitters: 0,
         glossy_senders: glossy,
         reflecting_senders: true,
         glossy_receivers: glossy,

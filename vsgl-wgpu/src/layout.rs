@@ -38,7 +38,8 @@ pub(crate) fn check(file: &str, name: &str, size: usize, fields: &[(&str, usize)
 fn records_of_the_scene_and_of_lights() {
     use crate::params::{TexelLayout, View};
     use vsgl_core::data::{
-        DiffuseVsgl, LightRecord, MapRecord, MaterialRecord, SpecularVsgl, TextureRecord,
+        DiffuseVsgl, EmitterRecord, LightRecord, MapRecord, MaterialRecord, SpecularVsgl,
+        TextureRecord,
     };
     use vsgl_core::geom::BvhNode;
 
@@ -144,6 +145,18 @@ fn records_of_the_scene_and_of_lights() {
             kind,
             cone,
             inverse_range2,
+        }
+    );
+    twins!(
+        "data/emitters",
+        "EmitterRecord",
+        EmitterRecord {
+            position,
+            area,
+            normal,
+            triangle,
+            flux,
+            padding
         }
     );
     twins!(

@@ -213,10 +213,12 @@ fn every_function_has_a_twin_and_a_test() {
 
 /// Plain functions of whole records, such as a map, a camera or the sums of a cluster, and of indices: every pixel, cluster
 /// and round of the phases compares them.
-const COMPARED_AS_PHASES: [&str; 16] = [
+const COMPARED_AS_PHASES: [&str; 18] = [
     "cluster_lights",
     "cluster_stretched",
     "direct_incoming",
+    "emit_point",
+    "emit_texel",
     "footprint_step",
     "gbuffer_ray",
     "kernel_record",

@@ -44,7 +44,7 @@ pub struct SceneArgs {
     /// E is the irradiance of a surface that faces it in W/m², one number or r,g,b.
     #[arg(long, value_name = "dx,dy,dz:E", value_parser = Sun::parse, allow_hyphen_values = true)]
     pub sun: Vec<Sun>,
-    /// Switch the scene's own lights off
+    /// Switch the scene's own lights off, and the surfaces that shine
     #[arg(long)]
     pub only_added_lights: bool,
 }

@@ -21,6 +21,11 @@ pub(super) fn scene_text(job: &Job) -> String {
         count(scene.textures.len(), "texture"),
     );
     out += &format!("  from {} to {} m\n", point(low), point(high));
+    if job.facts.emitters > 0 {
+        let shine = count(job.facts.emitters, "triangle");
+        out +=
+            &format!("  {shine} that may shine; their light is sent once, and does not bounce\n");
+    }
     out += &format!("  {}\n", count(job.lights.len(), "light"));
     for (index, light) in job.lights.iter().take(LIST_MAX).enumerate() {
         out += &format!(
@@ -97,6 +102,7 @@ pub(super) fn json(job: &Job) -> Value {
             "materials": scene.materials.len(),
             "textures": scene.textures.len(),
             "bounds": {"low": low, "high": high},
+            "emitting_triangles": job.facts.emitters,
             "glossy_senders": job.facts.glossy_senders,
             "reflecting_senders": job.facts.reflecting_senders,
             "glossy_receivers": job.facts.glossy_receivers,

@@ -4,6 +4,7 @@
 //! and take any of them from it, so that tests, dumps and comparisons need no code of their own for each type.
 
 pub(crate) mod columns;
+mod emitter;
 mod gbuffer;
 mod image;
 mod light;
@@ -14,6 +15,7 @@ mod scene_data;
 mod vsgls;
 
 pub use columns::{Column, Columns, Element, Scalar};
+pub use emitter::EmitterRecord;
 pub use gbuffer::GBuffer;
 pub use image::Image;
 pub(crate) use light::ALL_AROUND;

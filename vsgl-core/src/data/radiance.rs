@@ -11,7 +11,7 @@ columns! {
             /// Rows.
             height,
         }
-        /// Reflected light of the lights themselves.
+        /// Reflected light of the lights themselves, and of surfaces that shine.
         direct: [f32; 3],
         /// One bounce, reflected by the receiver's Lambert part. Empty without a bounce.
         indirect_diffuse: [f32; 3],

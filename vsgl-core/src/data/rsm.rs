@@ -1,6 +1,7 @@
 //! What the lights see: reflective shadow maps.
 
 use super::columns::{Element, Scalar, columns};
+use crate::math::vec::normalize;
 use glam::Vec3;
 
 columns! {
@@ -9,6 +10,9 @@ columns! {
     /// Where nothing was hit, or no flux arrives, all fluxes are zero.
     ///
     /// Source: Dachsbacher and Stamminger 2005, "Reflective Shadow Maps".
+    ///
+    /// The map of emitters, if there is one, is the last: the flux that leaves its texels stands where the others have the flux
+    /// that they reflect.
     pub struct Rsm = "rsm" {
         head {
             /// Texels along a side of a map.
@@ -75,12 +79,23 @@ pub mod map_kind {
     pub const FACE: f32 = 1.0;
     /// Parallel rays from a rectangle outside the scene.
     pub const PARALLEL: f32 = 2.0;
+    /// No rays: the texels are points of surfaces that shine.
+    pub const EMITTERS: f32 = 3.0;
 }
 
 impl MapRecord {
-    /// Direction from a position to the light, of any length.
+    /// Unit direction from a position to the light; zero for emitters, whose light comes from nowhere else.
+    pub fn light(&self, position: Vec3) -> Vec3 {
+        if self.kind == map_kind::EMITTERS {
+            Vec3::ZERO
+        } else {
+            normalize(self.to_light(position))
+        }
+    }
+
+    /// Direction from a position to the light, of any length. Of emitters it has no meaning.
     pub fn to_light(&self, position: Vec3) -> Vec3 {
-        if self.kind == map_kind::PARALLEL {
+        if self.kind >= map_kind::PARALLEL {
             -Vec3::from_array(self.axis)
         } else {
             Vec3::from_array(self.position) - position

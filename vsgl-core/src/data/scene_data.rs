@@ -1,6 +1,7 @@
 //! The scene as the phases read it.
 
 use super::columns::{Columns, Element, Scalar, columns};
+use super::emitter::EmitterRecord;
 use crate::error::{Error, Result};
 use crate::geom::{self, BvhNode};
 use glam::Vec3;
@@ -54,6 +55,8 @@ columns! {
         texel: u32,
         /// Linear value of each of the 256 sRGB codes. Empty without textures.
         srgb: f32,
+        /// Points of the surfaces that shine. Empty where none does.
+        emitter: EmitterRecord,
     }
 }
 

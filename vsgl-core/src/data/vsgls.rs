@@ -45,7 +45,7 @@ pub struct DiffuseVsgl {
     pub intensity: [f32; 3],
     /// One minus the vMF mean length of `sharpness`.
     pub complement: f32,
-    /// Unit direction to the light.
+    /// Unit direction to the light; zero where the cluster shines by itself.
     pub light: [f32; 3],
     /// Dielectric reflectance at normal incidence, mean.
     pub f0: f32,
@@ -109,6 +109,17 @@ pub struct Target {
     pub normal: [f32; 3],
     /// Zero.
     pub padding_normal: f32,
+}
+
+impl Vsgls {
+    /// Number of the first cluster that shines by itself; those after it do too. The number of clusters where none does.
+    pub fn first_emitter(&self) -> usize {
+        let shines = |light: &DiffuseVsgl| light.light == [0.0; 3];
+        self.diffuse
+            .iter()
+            .position(shines)
+            .unwrap_or(self.diffuse.len())
+    }
 }
 
 impl Element for DiffuseVsgl {

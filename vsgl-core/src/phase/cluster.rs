@@ -4,7 +4,7 @@
 
 use super::facing::geometric_normal;
 use crate::data::{
-    DiffuseVsgl, MapRecord, NO_TRIANGLE, Rsm, SceneData, SpecularVsgl, Target, Vsgls,
+    DiffuseVsgl, MapRecord, NO_TRIANGLE, Rsm, SceneData, SpecularVsgl, Target, Vsgls, map_kind,
 };
 use crate::math::fold::{halve, lanes};
 use crate::math::moments::{Moments, Scatter};
@@ -268,7 +268,16 @@ pub fn lights(sum: &Sum, map: &MapRecord, plan: &ClusterPlan) -> (DiffuseVsgl, S
 }
 
 fn to_light(map: &MapRecord, position: Vec3) -> [f32; 3] {
-    normalize(map.to_light(position)).to_array()
+    map.light(position).to_array()
+}
+
+/// Where a cluster without light has its light: zero for emitters, so that all of these are known by it.
+fn unlit(map: &MapRecord) -> [f32; 3] {
+    if map.kind == map_kind::EMITTERS {
+        [0.0; 3]
+    } else {
+        [0.0, 0.0, 1.0]
+    }
 }
 
 fn diffuse_cosine(sum: &Sum, map: &MapRecord, plan: &ClusterPlan) -> DiffuseVsgl {
@@ -276,7 +285,7 @@ fn diffuse_cosine(sum: &Sum, map: &MapRecord, plan: &ClusterPlan) -> DiffuseVsgl
     if part.weight <= 0.0 {
         return DiffuseVsgl {
             axis: [0.0, 0.0, 1.0],
-            light: [0.0, 0.0, 1.0],
+            light: unlit(map),
             ..DiffuseVsgl::default()
         };
     }
@@ -432,7 +441,7 @@ impl Vsgls {
 pub fn target(scene: &SceneData, rsm: &Rsm, texel: u32) -> Target {
     let [x, y, z, _] = rsm.position[texel as usize];
     let position = Vec3::new(x, y, z);
-    let light = rsm.map_of(texel as usize).to_light(position);
+    let light = rsm.lit_side(texel as usize);
     let triangle = rsm.triangle[texel as usize];
     let normal = if triangle == NO_TRIANGLE {
         Vec3::Z

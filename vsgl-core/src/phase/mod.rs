@@ -6,6 +6,7 @@ pub mod anisotropy;
 pub mod cluster;
 pub mod color;
 pub mod direct;
+pub mod emit;
 pub mod facing;
 pub mod filtered;
 pub mod footprint;

@@ -1,5 +1,6 @@
 //! What a light sees through one texel of its map.
 
+use super::emit;
 use super::facing::geometric_normal;
 use super::footprint::Place;
 use super::mask::closest_hit;
@@ -18,6 +19,16 @@ pub const FOOTPRINT_COSINE_MIN: f32 = 0.05;
 
 /// Share of a scene's diagonal by which the rays of a parallel map start outside it, and the least half side of the map.
 const MARGIN: f32 = 1e-3;
+
+/// The frames of all maps of a plan: those of the lights, and that of the emitters last. `bounds` are those of the scene.
+pub fn planned(lights: &[Light], plan: &RsmPlan, bounds: (Vec3, Vec3)) -> Vec<MapRecord> {
+    let lights = if plan.lights { lights } else { &[] };
+    let mut maps = maps(lights, plan.size, bounds);
+    if plan.emitters {
+        maps.push(emit::map());
+    }
+    maps
+}
 
 /// The frames of the maps of all lights, `size²` texels each. `bounds` are those of the scene.
 pub fn maps(lights: &[Light], size: u32, bounds: (Vec3, Vec3)) -> Vec<MapRecord> {
@@ -208,7 +219,7 @@ pub struct Texel {
 }
 
 impl Texel {
-    const EMPTY: Self = Self {
+    pub(super) const EMPTY: Self = Self {
         triangle: NO_TRIANGLE,
         position: [0.0; 4],
         normal: [0.0, 0.0, 1.0, 0.0],
@@ -228,6 +239,13 @@ pub fn texel(
     y: u32,
     plan: &RsmPlan,
 ) -> Texel {
+    if map.kind == map_kind::EMITTERS {
+        let (texels, points) = (size * size, scene.emitter.len() as u32);
+        let found = emit::point(y * size + x, texels, points);
+        return found.map_or(Texel::EMPTY, |p| {
+            emit::texel(&scene.emitter[p as usize], texels, points)
+        });
+    }
     let (ray, flux) = ray(map, size, x, y);
     if flux == Vec3::ZERO {
         return Texel::EMPTY;
@@ -303,6 +321,17 @@ impl Rsm {
     /// The map that a texel lies in.
     pub fn map_of(&self, texel: usize) -> &MapRecord {
         &self.map[texel / (self.size as usize * self.size as usize)]
+    }
+
+    /// The side of a texel's surface that its light leaves: a direction of any length.
+    pub fn lit_side(&self, texel: usize) -> Vec3 {
+        let map = self.map_of(texel);
+        if map.kind == map_kind::EMITTERS {
+            let [x, y, z, _] = self.normal[texel];
+            return Vec3::new(x, y, z);
+        }
+        let [x, y, z, _] = self.position[texel];
+        map.to_light(Vec3::new(x, y, z))
     }
 
     /// Luminances of the flux that a texel reflects by its Lambert and by its specular part \[W\].

@@ -12,6 +12,8 @@ pub struct SceneFacts {
     pub lights: usize,
     /// Number of their maps: see [`Light::maps`].
     pub maps: u32,
+    /// Number of triangles that shine, with or without a texture that may leave some of them dark.
+    pub emitters: usize,
     /// Some triangle that the lights may reach is glossy.
     pub glossy_senders: bool,
     /// Some triangle that the lights may reach reflects anything at all.
@@ -121,6 +123,7 @@ impl SceneFacts {
             maps: lights
                 .iter()
                 .fold(0, |sum, light| light.maps().saturating_add(sum)),
+            emitters: 0,
             glossy_senders: false,
             reflecting_senders: false,
             glossy_receivers: false,
@@ -132,6 +135,10 @@ impl SceneFacts {
         let colors = !scene.mesh.colors.is_empty();
         let findings = |material: &Material| Findings::of(material, colors);
         let findings: Vec<Findings> = scene.materials.iter().map(findings).collect();
+        for &material in &scene.mesh.material {
+            let material = &scene.materials[material as usize];
+            facts.emitters += usize::from(material.emission != [0.0; 3] && !material.unlit);
+        }
         for (triangle, &material) in scene.mesh.triangles.iter().zip(&scene.mesh.material) {
             let found = findings[material as usize];
             facts.masks |= found.masked;

@@ -4,6 +4,7 @@
 //! the world's origin loses no digits in the f32 arithmetic of the pipeline.
 
 mod camera;
+mod emitters;
 pub mod facts;
 #[cfg(feature = "gltf")]
 pub mod gltf;
@@ -15,6 +16,7 @@ pub mod samples;
 mod source;
 
 pub use camera::Camera;
+pub use emitters::POINTS as EMITTER_POINTS;
 pub use facts::{SceneFacts, SurfaceFacts};
 pub use light::{DirectionalLight, Light, PointLight, SpotLight};
 pub use material::{Filter, Material, Slot, Texture, TextureRef, Wrap};

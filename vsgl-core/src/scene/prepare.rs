@@ -1,5 +1,6 @@
 //! From the scene as it was read to the scene as the phases read it.
 
+use super::emitters;
 use super::pyramid::{self, srgb_to_linear};
 use super::{Filter, Material, Mesh, Scene, Slot, TextureRef, Wrap};
 use crate::data::{
@@ -20,6 +21,7 @@ impl SceneData {
         let (mut data, smaller) = Self::all_but_texels(scene);
         let texels = scene.textures.iter().map(|t| Cow::Borrowed(&t.texels[..]));
         data.texel = join(texels, smaller, texel_count(scene));
+        data.emitter = emitters::points(&data);
         data
     }
 
@@ -36,6 +38,7 @@ impl SceneData {
         let texels = scene.textures.iter_mut();
         let texels = texels.map(|t| Cow::Owned(take(&mut t.texels)));
         data.texel = join(texels, smaller, count);
+        data.emitter = emitters::points(&data);
         data
     }
 
@@ -101,6 +104,7 @@ impl SceneData {
             },
             texture: textures,
             texel: Vec::new(),
+            emitter: Vec::new(),
         };
         (data, smaller)
     }

@@ -2,13 +2,13 @@
 
 use rayon::prelude::*;
 use vsgl_core::data::{Rsm, SceneData};
-use vsgl_core::phase::rsm::{Texel, maps, texel};
+use vsgl_core::phase::rsm::{Texel, planned, texel};
 use vsgl_core::plan::RsmPlan;
 use vsgl_core::scene::Light;
 
 pub(crate) fn run(scene: &SceneData, lights: &[Light], plan: &RsmPlan) -> Rsm {
     let size = plan.size;
-    let maps = maps(lights, size, scene.bounds());
+    let maps = planned(lights, plan, scene.bounds());
     let rows = maps.len() * size as usize;
     let row = |row: usize| {
         let (map, y) = (&maps[row / size as usize], (row % size as usize) as u32);

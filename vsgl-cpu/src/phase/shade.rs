@@ -6,9 +6,12 @@ use crate::CpuBackend;
 use glam::Vec3;
 use multiversion::multiversion;
 use rayon::prelude::*;
+use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use vsgl_core::backend::{Senders, ShadeInputs};
-use vsgl_core::data::{GBuffer, LightRecord, NO_TRIANGLE, Radiance, Rsm, SceneData, Target, Vsgls};
+use vsgl_core::data::{
+    GBuffer, LightRecord, NO_TRIANGLE, Radiance, Rsm, SceneData, Target, Vsgls, map_kind,
+};
 use vsgl_core::geom::{Opaque, any_hit_block};
 use vsgl_core::phase::direct;
 use vsgl_core::phase::facing::{geometric_normal, lift};
@@ -46,6 +49,14 @@ pub(crate) fn run(
         Senders::Vsgls(vsgls) => Indirect::Vsgls(vsgls),
         Senders::Vpls(rsm) => Indirect::Vpls(&points, rsm),
     };
+    // Those that shine by themselves are the last.
+    let emitters = match senders {
+        _ if !plan.emitters => usize::MAX,
+        Senders::None => usize::MAX,
+        Senders::Vsgls(vsgls) => vsgls.first_emitter(),
+        Senders::Vpls(rsm) => points
+            .partition_point(|(texel, _)| rsm.map_of(*texel as usize).kind != map_kind::EMITTERS),
+    };
     let lights: Vec<LightRecord> = lights.iter().map(LightRecord::from).collect();
     let shader = Shader {
         scene,
@@ -53,6 +64,7 @@ pub(crate) fn run(
         eye: view.camera.eye,
         lights: &lights,
         indirect,
+        emitters,
         plan,
     };
     let blocks = gbuffer.triangle.len().div_ceil(LANES);
@@ -130,6 +142,8 @@ struct Shader<'a> {
     eye: Vec3,
     lights: &'a [LightRecord],
     indirect: Indirect<'a>,
+    /// Number of the first virtual light that shines by itself.
+    emitters: usize,
     plan: &'a ShadePlan,
 }
 
@@ -177,22 +191,49 @@ impl Shader<'_> {
                 block.direct[lane] = sum.to_array();
             }
         }
+        if matches!(self.indirect, Indirect::None) {
+            return block;
+        }
         let receivers = Receivers::new(&single);
-        let sums = match &self.indirect {
-            Indirect::None => return block,
-            Indirect::Vsgls(vsgls) => sum_vsgls(self.scene, vsgls, &receivers, &origins, self.plan),
-            Indirect::Vpls(points, rsm) => {
-                sum_vpls(self.scene, points, rsm, &receivers, &origins, self.plan)
-            }
+        let colors: [Colors; LANES] =
+            std::array::from_fn(|lane| Colors::of(self.gbuffer, index(lane)));
+        let lane_sums = |sums: &Sums, lane: usize| {
+            [&sums.diffuse, &sums.near, &sums.grazing]
+                .map(|sum| Vec3::from_array(sum.map(|c| c[lane])))
         };
+        let indirect = self.sum(0..self.emitters, &receivers, &origins);
         for lane in (0..LANES).filter(|&lane| hit[lane]) {
-            let colors = Colors::of(self.gbuffer, index(lane));
-            let [diffuse, near, grazing] = [&sums.diffuse, &sums.near, &sums.grazing]
-                .map(|sum| Vec3::from_array(sum.map(|c| c[lane])));
-            block.indirect_diffuse[lane] = colors.diffuse(diffuse).to_array();
-            block.indirect_glossy[lane] = colors.glossy(near, grazing).to_array();
+            let [diffuse, near, grazing] = lane_sums(&indirect, lane);
+            block.indirect_diffuse[lane] = colors[lane].diffuse(diffuse).to_array();
+            block.indirect_glossy[lane] = colors[lane].glossy(near, grazing).to_array();
+        }
+        if self.emitters < usize::MAX {
+            let emitted = self.sum(self.emitters..usize::MAX, &receivers, &origins);
+            for lane in (0..LANES).filter(|&lane| hit[lane]) {
+                let [diffuse, near, grazing] = lane_sums(&emitted, lane);
+                let before = Vec3::from_array(block.direct[lane]);
+                let lambert = colors[lane].diffuse(diffuse);
+                let specular = colors[lane].glossy(near, grazing);
+                block.direct[lane] = ((before + lambert) + specular).to_array();
+            }
         }
         block
+    }
+
+    /// Sums over some of the virtual lights; those beyond the last are none.
+    fn sum(&self, lights: Range<usize>, receivers: &Receivers, origins: &Origins) -> Sums {
+        let within = |count: usize| lights.start.min(count)..lights.end.min(count);
+        match &self.indirect {
+            Indirect::None => Sums::default(),
+            Indirect::Vsgls(vsgls) => {
+                let lights = within(vsgls.diffuse.len());
+                sum_vsgls(self.scene, vsgls, lights, receivers, origins, self.plan)
+            }
+            Indirect::Vpls(points, rsm) => {
+                let points = &points[within(points.len())];
+                sum_vpls(self.scene, points, rsm, receivers, origins, self.plan)
+            }
+        }
     }
 }
 
@@ -228,19 +269,20 @@ fn open(
 fn sum_vsgls(
     scene: &SceneData,
     vsgls: &Vsgls,
+    lights: Range<usize>,
     receivers: &Receivers,
     origins: &Origins,
     plan: &ShadePlan,
 ) -> Sums {
     let mut total = Sums::default();
     let receivers = *receivers;
-    for (j, diffuse) in vsgls.diffuse.iter().enumerate() {
+    for j in lights {
         let specular = if plan.glossy_senders {
             vsgls.specular.get(j)
         } else {
             None
         };
-        let sums = block::vsgl(diffuse, specular, &receivers, plan);
+        let sums = block::vsgl(&vsgls.diffuse[j], specular, &receivers, plan);
         let open = match plan.occlusion {
             OcclusionMethod::None => [1.0; LANES],
             OcclusionMethod::Rays => open(scene, &vsgls.target[j], origins, &sums, plan.masks),

@@ -1,3 +1,4 @@
+//! needs: math/vec
 // Lights and the frames of their maps. Twins of `MapRecord` in `vsgl-core/src/data/rsm.rs`, of `LightRecord` in `light.rs` there
 // and of `vsgl-core/src/scene/light.rs`.
 
@@ -18,7 +19,24 @@ struct MapRecord {
 
 // Direction from a position to the light, of any length.
 fn map_record_to_light(record: MapRecord, position: vec3<f32>) -> vec3<f32> {
-    return select(record.position - position, -record.axis, record.kind == MAP_PARALLEL);
+    return select(record.position - position, -record.axis, record.kind >= MAP_PARALLEL);
+}
+
+// Unit direction from a position to the light; zero for emitters.
+fn map_record_light(record: MapRecord, position: vec3<f32>) -> vec3<f32> {
+    return select(
+        vec_normalize(map_record_to_light(record, position)),
+        vec3(0.0),
+        record.kind == MAP_EMITTERS,
+    );
+}
+
+// The side of a texel's surface that its light leaves: a direction of any length.
+fn map_record_lit_side(record: MapRecord, position: vec3<f32>, normal: vec3<f32>) -> vec3<f32> {
+    if record.kind == MAP_EMITTERS {
+        return normal;
+    }
+    return map_record_to_light(record, position);
 }
 
 struct LightRecord {

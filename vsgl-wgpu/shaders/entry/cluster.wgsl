@@ -183,5 +183,5 @@ fn make_lights(
     if GLOSSY {
         specular_vsgl_write(j, params.capacity, made.specular);
     }
-    target_write(j, params.capacity, params.specular_stride, cluster_target(index, params.map_texels));
+    target_write(j, params.capacity, params.specular_stride, cluster_target(index, params.texels, params.map_texels));
 }

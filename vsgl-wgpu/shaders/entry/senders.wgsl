@@ -44,10 +44,11 @@ fn senders(
         across = tangent.w;
         turn = anisotropic_turn_of(normal.xyz, tangent.xyz);
     }
-    let apart = map_record_to_light(map[i / params.map_texels], position.xyz);
+    let record = map[i / params.map_texels];
+    let apart = map_record_to_light(record, position.xyz);
     var facing = vec3(0.0, 0.0, 1.0);
     if triangle[i] != NO_TRIANGLE {
-        facing = surface_geometric_normal(triangle[i], apart);
+        facing = surface_geometric_normal(triangle[i], map_record_lit_side(record, position.xyz, normal.xyz));
     }
     let weight = vec_luminance(diffuse.xyz) + grazing.w;
     let at = 7u * i;

@@ -8,6 +8,8 @@ override ANISOTROPIC_RECEIVERS: bool = false;
 override ANISOTROPIC_SENDERS: bool = false;
 override RAYS: bool = true;
 override MASKS: bool = true;
+// Some of the virtual lights shine by themselves. They are the last, and their light is direct.
+override EMITTERS: bool = true;
 override EMISSION: u32 = 0u;
 override DIFFUSE: u32 = 0u;
 override GLOSSY: u32 = 0u;
@@ -25,6 +27,8 @@ struct Params {
     lights: u32,
     first_light: u32,
     end_light: u32,
+    // The first texel that shines by itself, where texels are lights.
+    first_emitter: u32,
 }
 
 struct Count {
@@ -138,15 +142,32 @@ fn sums_before(i: u32) -> Sums {
     return Sums(waiting[at].xyz, waiting[at + 1u].xyz, waiting[at + 2u].xyz);
 }
 
+// Light of surfaces that shine comes to that of the lights.
+fn write_emitted(i: u32, total: Sums) {
+    let colors = colors_at(i);
+    var sum = vec3(radiance_out[3u * i], radiance_out[3u * i + 1u], radiance_out[3u * i + 2u]);
+    sum = sum + colors_diffuse(colors, total.diffuse);
+    if GLOSSY_RECEIVERS {
+        sum = sum + colors_glossy(colors, total.near, total.grazing);
+    }
+    write(0u, i, sum);
+}
+
 // Keeps the sums for the next dispatch, or makes the result of them after the last.
-fn write_indirect(i: u32, total: Sums) {
+fn write_sums(i: u32, total: Sums, emitting: bool) {
     if params.end_light < params.lights {
         let at = 3u * (i - params.first);
         waiting[at] = vec4(total.diffuse, 0.0);
         waiting[at + 1u] = vec4(total.near, 0.0);
         waiting[at + 2u] = vec4(total.grazing, 0.0);
-        return;
+    } else if EMITTERS && emitting {
+        write_emitted(i, total);
+    } else {
+        write_indirect(i, total);
     }
+}
+
+fn write_indirect(i: u32, total: Sums) {
     let colors = colors_at(i);
     write(1u, i, colors_diffuse(colors, total.diffuse));
     if GLOSSY_RECEIVERS {
@@ -164,6 +185,7 @@ fn vsgls(
         return;
     }
     var total = sums_before(i);
+    var emitting = false;
     if triangle[i] != NO_TRIANGLE {
         let seen = receiver_at(i);
         var origin = vec3(0.0);
@@ -172,8 +194,18 @@ fn vsgls(
         }
         let surfaces = surfaces_of(seen);
         let capacity = params.lights;
+        let before = min(params.first_light, clusters.value);
+        if EMITTERS && before > 0u {
+            emitting = all(diffuse_vsgl_at(before - 1u).light == vec3(0.0));
+        }
         for (var j = params.first_light; j < min(params.end_light, clusters.value); j++) {
-            var sums = reflect_diffuse(diffuse_vsgl_at(j), seen, surfaces);
+            let light = diffuse_vsgl_at(j);
+            if EMITTERS && !emitting && all(light.light == vec3(0.0)) {
+                write_indirect(i, total);
+                total = Sums();
+                emitting = true;
+            }
+            var sums = reflect_diffuse(light, seen, surfaces);
             if GLOSSY_SENDERS {
                 sums = reflect_specular(sums, specular_vsgl_at(j, capacity), seen, surfaces);
             }
@@ -189,7 +221,7 @@ fn vsgls(
             total = sums_add(total, sums);
         }
     }
-    write_indirect(i, total);
+    write_sums(i, total, emitting);
 }
 
 @compute @workgroup_size(INVOCATIONS)
@@ -202,13 +234,20 @@ fn vpls(
         return;
     }
     var total = sums_before(i);
+    var emitting = false;
     if triangle[i] != NO_TRIANGLE {
         let seen = receiver_at(i);
         var origin = vec3(0.0);
         if RAYS {
             origin = origin_at(i, seen.position);
         }
+        emitting = EMITTERS && params.first_light > params.first_emitter;
         for (var j = params.first_light; j < params.end_light; j++) {
+            if EMITTERS && j == params.first_emitter {
+                write_indirect(i, total);
+                total = Sums();
+                emitting = true;
+            }
             let light = sender_at(j);
             if !light.lit {
                 continue;
@@ -228,5 +267,5 @@ fn vpls(
             total = sums_add(total, sums);
         }
     }
-    write_indirect(i, total);
+    write_sums(i, total, emitting);
 }

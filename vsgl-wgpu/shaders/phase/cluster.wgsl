@@ -193,14 +193,14 @@ fn cluster_lights(sum: Sum, record: MapRecord) -> Lights {
 }
 
 fn cluster_to_light(record: MapRecord, position: vec3<f32>) -> vec3<f32> {
-    return vec_normalize(map_record_to_light(record, position));
+    return map_record_light(record, position);
 }
 
 fn cluster_diffuse_cosine(sum: Sum, record: MapRecord) -> DiffuseVsgl {
     let part = sum.diffuse;
     var made = DiffuseVsgl();
     made.axis = vec3(0.0, 0.0, 1.0);
-    made.light = vec3(0.0, 0.0, 1.0);
+    made.light = select(vec3(0.0, 0.0, 1.0), vec3(0.0), record.kind == MAP_EMITTERS);
     if part.weight > 0.0 {
         let facing = part_facing(part);
         let extent = cluster_extent_of(part, facing.axis);
@@ -291,9 +291,9 @@ fn cluster_specular_power(sum: Sum) -> vec3<f32> {
     return color * (sum.specular.weight / max(vec_luminance(color), F32_MIN_POSITIVE));
 }
 
-fn cluster_target(index: u32, map_texels: u32) -> Target {
+fn cluster_target(index: u32, count: u32, map_texels: u32) -> Target {
     let position = texel[index].xyz;
-    let light = map_record_to_light(map[index / map_texels], position);
+    let light = map_record_lit_side(map[index / map_texels], position, texel[count + index].xyz);
     var normal = vec3(0.0, 0.0, 1.0);
     if triangle[index] != NO_TRIANGLE {
         normal = surface_geometric_normal(triangle[index], light);

@@ -1,4 +1,4 @@
-//! needs: brdf/albedo, data/lights, geom/ray, math/vec, phase/facing, phase/footprint, phase/surface
+//! needs: brdf/albedo, data/lights, data/texel, geom/ray, math/vec, phase/facing, phase/footprint, phase/surface
 // What a light sees through one texel of its map. Twin of `vsgl-core/src/phase/rsm.rs`.
 
 struct RsmRay {
@@ -22,26 +22,6 @@ fn rsm_ray(map: MapRecord, size: u32, x: u32, y: u32) -> RsmRay {
     let falloff = spot_light_falloff(from_cone, map.cos_inner, map.cos_outer);
     let solid_angle = map.solid_angle * (cosine * cosine * cosine);
     return RsmRay(ray_new(map.position, direction), map.intensity * (falloff * solid_angle));
-}
-
-struct Texel {
-    position: vec4<f32>,
-    normal: vec4<f32>,
-    diffuse: vec4<f32>,
-    specular: vec4<f32>,
-    grazing: vec4<f32>,
-    tangent: vec4<f32>,
-}
-
-fn rsm_empty() -> Texel {
-    return Texel(
-        vec4(0.0),
-        vec4(0.0, 0.0, 1.0, 0.0),
-        vec4(0.0),
-        vec4(0.0, 0.0, 0.0, 1.0),
-        vec4(0.0),
-        vec4(0.0),
-    );
 }
 
 // The texel at a hit of its ray.

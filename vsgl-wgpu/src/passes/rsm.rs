@@ -6,8 +6,9 @@ use crate::recorder::{Groups, Recorder};
 use crate::res::WgpuRes;
 use bytemuck::{Pod, Zeroable};
 use vsgl_core::Result;
+use vsgl_core::data::map_kind;
 use vsgl_core::data::{MapRecord, Rsm, SceneData};
-use vsgl_core::phase::rsm::maps;
+use vsgl_core::phase::rsm::planned;
 use vsgl_core::plan::RsmPlan;
 use vsgl_core::scene::Light;
 
@@ -22,21 +23,56 @@ struct Params {
     count: u32,
 }
 
+/// Twin of `Params` in `entry/emitters.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+struct EmitterParams {
+    map: MapRecord,
+    size: u32,
+    first: u32,
+    count: u32,
+    points: u32,
+}
+
 fn constants(plan: &RsmPlan, textures: bool) -> Vec<Constant> {
     let mut constants = surface_constants(&plan.surface, textures).to_vec();
     constants.push(("GLOSSY", flag(plan.glossy)));
     constants
 }
 
-/// The pipelines that a plan needs.
-pub(crate) fn kernels(plan: &RsmPlan) -> Vec<KernelId> {
-    vec![
-        KernelId::new("entry/rsm", "visibility", &masks(&plan.surface)),
-        KernelId::new("entry/rsm", "surface", &constants(plan, true)),
+fn emitter_constants(plan: &RsmPlan) -> [Constant; 2] {
+    [
+        ("GLOSSY", flag(plan.glossy)),
+        ("ANISOTROPY", flag(plan.surface.anisotropy)),
     ]
 }
 
-/// Records both kernels for each light's map.
+/// The pipelines that a plan needs.
+pub(crate) fn kernels(plan: &RsmPlan) -> Vec<KernelId> {
+    let mut kernels = Vec::new();
+    if plan.lights {
+        kernels.push(KernelId::new(
+            "entry/rsm",
+            "visibility",
+            &masks(&plan.surface),
+        ));
+        kernels.push(KernelId::new(
+            "entry/rsm",
+            "surface",
+            &constants(plan, true),
+        ));
+    }
+    if plan.emitters {
+        kernels.push(KernelId::new(
+            "entry/emitters",
+            "emitters",
+            &emitter_constants(plan),
+        ));
+    }
+    kernels
+}
+
+/// Records both kernels for each light's map, and that for the map of emitters.
 pub(crate) fn record(
     recorder: &mut Recorder<'_>,
     scene: &WgpuRes<SceneData>,
@@ -44,7 +80,7 @@ pub(crate) fn record(
     plan: &RsmPlan,
 ) -> Result<WgpuRes<Rsm>> {
     let context = recorder.context();
-    let maps = maps(lights, plan.size, SceneData::bounds_of(&scene.head));
+    let maps = planned(lights, plan, SceneData::bounds_of(&scene.head));
     let side = u64::from(plan.size) * u64::from(plan.size);
     let count = side * maps.len() as u64;
     let glossy = if plan.glossy { count } else { 0 };
@@ -76,11 +112,26 @@ pub(crate) fn record(
         ("map_out", made.bind("map")),
     ]);
     for (index, map) in maps.iter().enumerate() {
+        let first = (index as u64 * side) as u32;
+        if map.kind == map_kind::EMITTERS {
+            let constants = emitter_constants(plan);
+            let emitters = context.kernel("entry/emitters", "emitters", &constants)?;
+            let params = EmitterParams {
+                map: *map,
+                size: plan.size,
+                first,
+                count: count as u32,
+                points: scene.len("emitter") as u32,
+            };
+            bound.push(("emitter", scene.bind("emitter")));
+            recorder.dispatch(&emitters, &params, &bound, Groups::Items(side))?;
+            continue;
+        }
         let params = Params {
             map: *map,
             nodes: scene.len("node") as u32,
             size: plan.size,
-            first: (index as u64 * side) as u32,
+            first,
             count: count as u32,
         };
         recorder.dispatch(&visibility, &params, &bound, Groups::Items(side))?;
@@ -91,7 +142,7 @@ pub(crate) fn record(
 
 #[cfg(test)]
 mod tests {
-    use super::Params;
+    use super::{EmitterParams, Params};
     use crate::layout::twins;
 
     #[test]
@@ -105,6 +156,17 @@ mod tests {
                 size,
                 first,
                 count
+            }
+        );
+        twins!(
+            "entry/emitters",
+            "Params",
+            EmitterParams {
+                map,
+                size,
+                first,
+                count,
+                points
             }
         );
     }

@@ -41,7 +41,7 @@ struct Params {
     lights: u32,
     first_light: u32,
     end_light: u32,
-    padding: u32,
+    first_emitter: u32,
 }
 
 /// Twin of `Params` in `entry/senders.wgsl`.
@@ -150,7 +150,7 @@ impl Shading {
                 lights: lights.len() as u32,
                 first_light: 0,
                 end_light: 0,
-                padding: 0,
+                first_emitter: first_emitter(&inputs.senders, plan),
             },
             direct: context.kernel("entry/shade", "direct", &direct_constants(plan))?,
             direct_lights,
@@ -289,6 +289,17 @@ impl Bounce {
     }
 }
 
+/// The first texel of the map of emitters, where texels are lights; there is none otherwise.
+fn first_emitter(senders: &Senders<'_, WgpuBackend>, plan: &ShadePlan) -> u32 {
+    match senders {
+        Senders::Vpls(rsm) if plan.emitters => {
+            let (side, maps) = (rsm.head[0], rsm.head[1]);
+            (maps.max(1) - 1) * side * side
+        }
+        _ => u32::MAX,
+    }
+}
+
 fn direct_constants(plan: &ShadePlan) -> [Constant; 3] {
     [
         ("MASKS", flag(plan.masks)),
@@ -319,7 +330,7 @@ pub(crate) fn kernels(plan: &ShadePlan, clusters: bool) -> Vec<KernelId> {
 }
 
 /// The constants of the kernels that shade by virtual lights; numbers as in `phase/reflect.wgsl`.
-fn constants(plan: &ShadePlan) -> [Constant; 9] {
+fn constants(plan: &ShadePlan) -> [Constant; 10] {
     let emission = match plan.emission {
         Emission::Cosine => 0.0,
         Emission::Sg => 1.0,
@@ -339,6 +350,7 @@ fn constants(plan: &ShadePlan) -> [Constant; 9] {
         ("GLOSSY_SENDERS", flag(plan.glossy_senders)),
         ("ANISOTROPIC_RECEIVERS", flag(plan.anisotropic_receivers)),
         ("ANISOTROPIC_SENDERS", flag(plan.anisotropic_senders)),
+        ("EMITTERS", flag(plan.emitters)),
         ("RAYS", flag(plan.occlusion == OcclusionMethod::Rays)),
         ("MASKS", flag(plan.masks)),
         ("EMISSION", emission),
@@ -366,7 +378,8 @@ mod tests {
                 nodes,
                 lights,
                 first_light,
-                end_light
+                end_light,
+                first_emitter
             }
         );
         twins!(

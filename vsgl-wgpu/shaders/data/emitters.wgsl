@@ -1,0 +1,10 @@
+// Points of surfaces that shine. Twin of `vsgl-core/src/data/emitter.rs`.
+
+struct EmitterRecord {
+    position: vec3<f32>,
+    area: f32,
+    normal: vec3<f32>,
+    triangle: u32,
+    flux: vec3<f32>,
+    padding: u32,
+}
