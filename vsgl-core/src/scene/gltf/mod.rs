@@ -72,8 +72,9 @@ pub use options::Options;
 ///
 /// Read are triangles with normals, colours, tangents and two sets of texture coordinates, moved by morph targets at their
 /// default weights and by skins at rest, copied by nodes and by `EXT_mesh_gpu_instancing`; metallic-roughness materials
-/// with their textures (PNG, JPEG and WebP), `KHR_materials_specular`, `KHR_materials_ior`, `KHR_texture_transform`,
-/// `KHR_mesh_quantization`, `EXT_meshopt_compression`, `KHR_draco_mesh_compression` (feature `draco`),
+/// with all their textures (PNG, JPEG and WebP), emission, normal maps and alpha masks, `KHR_materials_specular`,
+/// `KHR_materials_ior`, `KHR_materials_anisotropy`, `KHR_materials_emissive_strength`, `KHR_materials_unlit`,
+/// `KHR_texture_transform`, `KHR_mesh_quantization`, `EXT_meshopt_compression`, `KHR_draco_mesh_compression` (feature `draco`),
 /// `KHR_lights_punctual`, and cameras. What else a file holds is left out with a line in
 /// [`Scene::warnings`]; if the file *requires* it, it is refused.
 ///
