@@ -131,12 +131,14 @@ fn encoded<'a>(
     };
     let format = format(&bytes).ok_or_else(|| {
         let name = image.uri.as_deref().filter(|uri| !uri.starts_with("data:"));
+        let name = name.map_or("it".into(), quoted);
+        let what = match bytes.starts_with(b"\xabKTX ") {
+            true => "is a KTX file, and not PNG, JPEG or WebP",
+            false => "is neither PNG nor JPEG nor WebP",
+        };
         Fault::new(
             &place,
-            format!(
-                "{} is neither PNG nor JPEG nor WebP",
-                name.map_or("it".into(), quoted)
-            ),
+            format!("{name} {what}"),
             "convert it to one of these",
         )
     })?;
