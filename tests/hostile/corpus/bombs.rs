@@ -178,6 +178,60 @@ fn meshes() -> Vec<Case> {
             Either,
         ),
     ];
+    let large = || {
+        let mut file = full(750);
+        let view = file.view(&png::plain(
+            8192,
+            8000,
+            ColorType::Grayscale,
+            BitDepth::Eight,
+        ));
+        file.set("/images/0/bufferView", json!(view))
+    };
+    cases.push(Case::later("much of everything", large, Refused("memory")));
+    let filled = |bytes: usize| {
+        move || {
+            let mut file = full(40);
+            file.view(&vec![0; bytes]);
+            file
+        }
+    };
+    cases.push(Case::later(
+        "240 MB beside the scene",
+        filled(240 << 20),
+        Drawn,
+    ));
+    cases.push(Case::later(
+        "300 MB beside the scene",
+        filled(300 << 20),
+        Refused("file_bytes"),
+    ));
+    let filled = || {
+        let mut file = full(40);
+        file.view(&vec![0; 240 << 20]);
+        file
+    };
+    cases.push(Case::glb_later("glb of 240 MB", filled, Drawn));
+    let inside = || {
+        let file = full(40);
+        file.set(
+            "/buffers/0/uri",
+            json!(format!("data:;base64,{}", "A".repeat(92 << 20))),
+        )
+    };
+    cases.push(Case::later("92 MB inside the address", inside, Either));
+    let inside = || {
+        let file = full(40);
+        file.set(
+            "/buffers/0/uri",
+            json!(format!("data:;base64,{}", "A".repeat(200 << 20))),
+        )
+    };
+    cases.push(Case::later(
+        "200 MB inside the address",
+        inside,
+        Refused("json_bytes"),
+    ));
     // One accessor of zeros, many corners.
     let strip = |count: u64| {
         let mut file = File::sound();

@@ -98,6 +98,19 @@ impl Case {
         Self::bytes(name, "s.glb", file.to_glb(), fate)
     }
 
+    /// A .glb file that is made when it is written.
+    fn glb_later(name: impl Into<String>, file: fn() -> File, fate: Fate) -> Self {
+        Self {
+            name: name.into(),
+            main: "s.glb",
+            things: vec![(
+                "s.glb".into(),
+                Thing::Made(Box::new(move || file().to_glb())),
+            )],
+            fate,
+        }
+    }
+
     fn with(mut self, name: &str, thing: Thing) -> Self {
         self.things.push((name.into(), thing));
         self

@@ -69,6 +69,22 @@ impl Scene {
         vertices + bytes(&mesh.triangles) + bytes(&mesh.material) + texels
     }
 
+    /// About how many bytes [`SceneData::take`](crate::data::SceneData::take) needs besides those of the scene.
+    pub fn prepared_bytes(&self) -> u64 {
+        let mesh = &self.mesh;
+        let each = |floats: u64, wanted: bool| if wanted { 4 * floats } else { 0 };
+        // Corners, twice while the hierarchy is built, with its boxes, nodes and order; normals, material.
+        let triangle = each(9 + 9 + 8 + 8 + 1 + 9 + 1, true)
+            + each(6, !mesh.texcoords.is_empty())
+            + each(6, !mesh.texcoords_second.is_empty())
+            + each(12, !mesh.tangents.is_empty())
+            + each(12, !mesh.colors.is_empty());
+        // Copied one by one, while those before are freed; and a third for the smaller images, for colours and for
+        // numbers.
+        let texels: u64 = self.textures.iter().map(|t| t.texels.len() as u64).sum();
+        mesh.triangles.len() as u64 * triangle + 4 * texels * 2 / 3
+    }
+
     /// Smallest box around all vertices, as (least, greatest) corner \[m\]; zero without triangles.
     pub fn bounds(&self) -> (Vec3, Vec3) {
         let mut corners = self.mesh.positions.iter();

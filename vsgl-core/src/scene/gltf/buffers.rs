@@ -5,14 +5,15 @@ use super::fault::{Fault, Result};
 use super::files::Files;
 use super::meshopt::{self, Packed};
 use gltf::json::{Index, Value, buffer};
-use std::cell::OnceCell;
+use std::cell::{Cell, OnceCell};
 use std::collections::HashMap;
 
 /// The buffers of a file, each read when it is first used.
 pub(super) struct Buffers<'a> {
     document: &'a Document,
     files: &'a Files,
-    bin: Option<Vec<u8>>,
+    /// Data of the first buffer of a .glb file, until that is used.
+    bin: Cell<Option<Vec<u8>>>,
     loaded: Vec<OnceCell<Vec<u8>>>,
     /// Ranges that are packed, by the index of their buffer view, each unpacked when it is first used.
     unpacked: HashMap<usize, OnceCell<Vec<u8>>>,
@@ -26,7 +27,7 @@ impl<'a> Buffers<'a> {
         Self {
             document,
             files,
-            bin,
+            bin: Cell::new(bin),
             loaded: loaded.collect(),
             unpacked: packed.map(|(i, _)| (i, OnceCell::new())).collect(),
         }
@@ -98,9 +99,13 @@ impl<'a> Buffers<'a> {
     fn load(&self, index: usize) -> Result<Vec<u8>> {
         let buffer = &self.document.root.buffers[index];
         let place = format!("buffers[{index}]");
-        let mut bytes = match (&buffer.uri, &self.bin) {
+        let bin = match &buffer.uri {
+            None if index == 0 => self.bin.take(),
+            _ => None,
+        };
+        let mut bytes = match (&buffer.uri, bin) {
             (Some(uri), _) => self.files.resolve(uri, &place)?,
-            (None, Some(bin)) if index == 0 => bin.clone(),
+            (None, Some(bin)) => bin,
             (None, _) => {
                 return Err(Fault::new(
                     place,

@@ -2,6 +2,7 @@
 
 use super::fault::{Fault, Result};
 use super::files::Files;
+use std::ops::Range;
 use std::path::Path;
 
 /// The parts of a scene file.
@@ -22,7 +23,7 @@ pub(super) fn read(files: &Files, path: &Path) -> Result<Container> {
         return Err(Fault::new("file", "is empty", "name a glTF 2.0 file"));
     }
     if bytes.starts_with(MAGIC) {
-        return split(&bytes);
+        return split(bytes);
     }
     let json = match bytes.strip_prefix(b"\xef\xbb\xbf") {
         Some(without_mark) => without_mark.to_vec(),
@@ -39,7 +40,7 @@ pub(super) fn name(path: &Path) -> String {
         .into_owned()
 }
 
-fn split(bytes: &[u8]) -> Result<Container> {
+fn split(mut bytes: Vec<u8>) -> Result<Container> {
     let broken = |problem: String| {
         Fault::new(
             "file",
@@ -58,21 +59,28 @@ fn split(bytes: &[u8]) -> Result<Container> {
         return Err(truncated());
     }
     let mut json = None;
-    let mut bin = None;
+    let mut bin: Option<Range<usize>> = None;
     // Up to seven bytes that cannot be a chunk may follow as padding.
     while rest.len() >= 8 {
         let size = take_u32(&mut rest).ok_or_else(truncated)? as usize;
         let kind = take_u32(&mut rest).ok_or_else(truncated)?;
         let chunk = rest.get(..size).ok_or_else(truncated)?;
+        let start = bytes.len() - rest.len();
         rest = &rest[size..];
         match kind {
             JSON if json.is_none() => json = Some(chunk.to_vec()),
-            BIN if bin.is_none() => bin = Some(chunk.to_vec()),
+            BIN if bin.is_none() => bin = Some(start..start + size),
             // Chunks of other kinds are to be ignored.
             _ => {}
         }
     }
     let json = json.ok_or_else(|| broken("is a .glb file without JSON".into()))?;
+    // The bytes themselves, moved: a copy would hold a large file twice.
+    let bin = bin.map(|range| {
+        bytes.truncate(range.end);
+        bytes.drain(..range.start);
+        bytes
+    });
     Ok(Container { json, bin })
 }
 

@@ -168,6 +168,13 @@ pub(super) fn lookup<'a, T>(
 
 /// Refuses JSON that would take far more memory parsed than written.
 fn check_size(json: &[u8], limits: &Limits) -> Result<()> {
+    if json.len() as u64 > limits.json_bytes {
+        return Err(Fault::new(
+            "JSON",
+            format!("more than {} bytes", limits.json_bytes),
+            "put data into a file of its own, or raise the limit `json_bytes`",
+        ));
+    }
     let (mut objects, mut values) = (0u64, 0u64);
     let (mut in_string, mut escaped) = (false, false);
     for &byte in json {

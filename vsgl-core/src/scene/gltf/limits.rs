@@ -45,6 +45,7 @@ macro_rules! limits {
 
 limits! {
     file_bytes = 256 << 20, "bytes of all files of the scene together";
+    json_bytes = 96 << 20, "bytes of JSON, data inside addresses counted";
     objects = 1 << 18, "JSON objects: nodes, meshes, accessors and so on are one each";
     triangles = 5 << 18, "triangles drawn, instances counted";
     vertices = 1 << 22, "vertices drawn, instances counted; triangles without normals have three each";
@@ -52,6 +53,7 @@ limits! {
     joints = 1 << 16, "joints of all skins in use";
     lights = 1024, "lights";
     overlap = 2048, "triangles in one place, each of which a ray there would test";
+    memory = 768 << 20, "bytes that the scene takes while it is prepared to be drawn";
     texels = 1 << 26, "texels of all images that materials use; those of 16 bits count twice";
 }
 

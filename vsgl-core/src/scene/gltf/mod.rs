@@ -106,7 +106,7 @@ fn read(path: &Path, options: &Options) -> fault::Result<Scene> {
     let Container { json, bin } = container::read(&files, path)?;
     let document = Document::parse(&json, limits, &mut warnings)?;
     drop(json);
-    let scene = document.scene(options.scene.as_deref(), &mut warnings)?;
+    let shown = document.scene(options.scene.as_deref(), &mut warnings)?;
     let buffers = Buffers::new(&document, &files, bin);
     let pose = match options.time {
         Some(time) => Pose::at(&document, &buffers, time)?,
@@ -115,7 +115,7 @@ fn read(path: &Path, options: &Options) -> fault::Result<Scene> {
     if options.time.is_none() && !document.root.animations.is_empty() {
         warnings.add("animations are ignored: the scene is shown at rest; a time can be chosen");
     }
-    let tree = nodes::walk(&document, scene, &pose)?;
+    let tree = nodes::walk(&document, shown, &pose)?;
     let placed = &tree.placed;
     let geometry = assemble::geometry(&document, &buffers, &tree, limits, &mut warnings)?;
     let (textures, images) = images::decode(&document, &buffers, &files, &geometry.images, limits)?;
@@ -130,7 +130,7 @@ fn read(path: &Path, options: &Options) -> fault::Result<Scene> {
     }
     let cameras = cameras::collect(&document, placed, &geometry, &mut warnings)?;
     let (extensions_used, extensions_ignored) = document.extensions();
-    Ok(Scene {
+    let scene = Scene {
         name: container::name(path),
         origin,
         mesh: geometry.mesh,
@@ -142,12 +142,21 @@ fn read(path: &Path, options: &Options) -> fault::Result<Scene> {
         source: Source {
             bytes: files.bytes_read(),
             scenes: document.scene_names(),
-            scene,
+            scene: shown,
             extensions_used,
             extensions_ignored,
             unique_triangles: geometry.unique_triangles,
             lights: light_names,
             images,
         },
-    })
+    };
+    let needed = scene.memory_bytes() + scene.prepared_bytes();
+    if needed > limits.memory {
+        return Err(fault::Fault::new(
+            "scene",
+            format!("takes {needed} bytes, more than {}", limits.memory),
+            "simplify it, use smaller images, or raise the limit `memory`",
+        ));
+    }
+    Ok(scene)
 }
