@@ -177,14 +177,16 @@ fn filtered(
 }
 
 /// Channels that hold codes, divided by 255. After interpolation: before, a driver takes the factor out of the sums, and
-/// what is left of one minus a metallic factor near one is a rounding.
+/// what is left of one minus a metallic factor near one is a rounding. At most 1, which the mean of several places may pass by
+/// one: a metal must not reflect less than nothing as a Lambert surface.
 fn scaled(texel: [f32; 4], srgb: bool) -> [f32; 4] {
     std::array::from_fn(|i| {
-        if srgb && i < 3 {
+        let one = if srgb && i < 3 {
             texel[i]
         } else {
             texel[i] * (1.0 / 255.0)
-        }
+        };
+        one.min(1.0)
     })
 }
 
@@ -231,7 +233,53 @@ fn wrap(x: f32, size: u32, mode: u32) -> u32 {
 
 #[cfg(test)]
 mod tests {
-    use super::wrap;
+    use super::{sample, wrap};
+    use crate::data::{MIPS, SceneData, TextureRecord};
+    use crate::phase::footprint::{Footprint, Place};
+
+    /// A white texture of 2^`levels` texels a side at a right triangle over it.
+    fn white(levels: u32) -> SceneData {
+        let size = 1 << levels;
+        let texels = (0..=levels).map(|level| 1usize << (2 * level)).sum();
+        SceneData {
+            corner_texcoord: vec![[0.0, 0.0, 1.0, 0.0, 0.0, 1.0]],
+            texture: vec![TextureRecord {
+                width: size,
+                height: size,
+                mode: MIPS,
+                to_u: [1.0, 0.0, 0.0],
+                to_v: [0.0, 1.0, 0.0],
+                smaller: size * size,
+                levels: levels + 1,
+                ..TextureRecord::default()
+            }],
+            texel: vec![u32::MAX; texels],
+            srgb: vec![1.0; 256],
+            ..SceneData::default()
+        }
+    }
+
+    #[test]
+    fn white_is_white_over_any_footprint() {
+        let scene = white(6);
+        for i in 0..400 {
+            let step = |n: u32| ((i * n) % 97) as f32 / 97.0;
+            let place = Place {
+                triangle: 0,
+                u: step(13),
+                v: step(29),
+                footprint: Footprint {
+                    x: [step(31), step(7)],
+                    y: [0.1 * step(3), 0.2 * step(11)],
+                },
+            };
+            for srgb in [true, false] {
+                for c in sample(&scene, 0, &place, srgb) {
+                    assert!((1.0 - 3e-7..=1.0).contains(&c), "{place:?}: {c}");
+                }
+            }
+        }
+    }
 
     #[test]
     fn wrap_modes_at_the_edges_and_beyond() {

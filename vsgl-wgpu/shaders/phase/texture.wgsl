@@ -134,7 +134,7 @@ fn texture_filtered(record: TextureRecord, image: TextureImage, st: vec2<f32>, s
 
 fn texture_scaled(texel: vec4<f32>, srgb: bool) -> vec4<f32> {
     let scaled = texel * (1.0 / 255.0);
-    return select(scaled, vec4(texel.xyz, scaled.w), srgb);
+    return min(select(scaled, vec4(texel.xyz, scaled.w), srgb), vec4(1.0));
 }
 
 fn texture_load(record: TextureRecord, image: TextureImage, x: f32, y: f32, srgb: bool) -> vec4<f32> {
