@@ -98,7 +98,8 @@ pub fn sample(scene: &SceneData, texture: u32, place: &Place, srgb: bool) -> [f3
         let texel = between(scene, &record, u, v, reach.level, srgb);
         sum = std::array::from_fn(|i| sum[i] + texel[i]);
     }
-    scaled(sum.map(|c| c * share), srgb)
+    // Divided, not multiplied by a share: the mean of equal codes is that code, so that a factor of one stays one.
+    scaled(sum.map(|c| c / reach.taps as f32), srgb)
 }
 
 /// At one place: a mean of the two images about `level`. Codes are not scaled yet.

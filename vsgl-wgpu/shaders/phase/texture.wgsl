@@ -74,7 +74,7 @@ fn texture_sample(texture: u32, place: Place, srgb: bool) -> vec4<f32> {
         let from_middle = (f32(tap) + 0.5) * share - 0.5;
         sum += texture_between(record, reach.at + reach.along * from_middle, reach.level, srgb);
     }
-    return texture_scaled(sum * share, srgb);
+    return texture_scaled(sum / f32(reach.taps), srgb);
 }
 
 // At one place: a mean of the two images about `level`.
