@@ -64,8 +64,7 @@ pub fn at_hit(scene: &SceneData, place: &Place, direction: Vec3, reads: &Surface
         if material.metallic_roughness_texture != NO_TEXTURE {
             let factors = sample(material.metallic_roughness_texture, false);
             roughness *= factors[1];
-            // Sums of texels may pass 1 by a rounding, and no surface reflects less than nothing.
-            metallic = (metallic * factors[2]).min(1.0);
+            metallic *= factors[2];
         }
         if material.specular_texture != NO_TEXTURE {
             specular *= sample(material.specular_texture, false)[3];

@@ -38,7 +38,7 @@ fn surface_at_hit(place: Place, direction: vec3<f32>) -> Surface {
         if record.metallic_roughness_texture != NO_TEXTURE {
             let factors = texture_sample(record.metallic_roughness_texture, place, false);
             roughness = roughness * factors.y;
-            metallic = min(metallic * factors.z, 1.0);
+            metallic = metallic * factors.z;
         }
         if record.specular_texture != NO_TEXTURE {
             specular = specular * texture_sample(record.specular_texture, place, false).w;
