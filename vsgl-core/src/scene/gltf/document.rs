@@ -101,8 +101,10 @@ impl Document {
                 let names: Vec<_> = scenes.iter().enumerate().take(LISTED).map(name).collect();
                 let remedy = match names.is_empty() {
                     true => "it has none; leave the choice out".to_owned(),
-                    false if scenes.len() > LISTED => format!("it has {}, …", names.join(", ")),
-                    false => format!("it has {}", names.join(", ")),
+                    false if scenes.len() > LISTED => {
+                        format!("its scenes are {}, …", names.join(", "))
+                    }
+                    false => format!("its scenes are {}", names.join(", ")),
                 };
                 Fault::setting(
                     "scene",

@@ -287,7 +287,9 @@ fn another_scene_can_be_chosen() {
         let error = choose(Some(wanted), "").unwrap_err();
         assert!(matches!(error, Error::Setting { .. }), "{error}");
         assert!(
-            error.to_string().contains("it has 0 `near`, 1, 2 `0`"),
+            error
+                .to_string()
+                .contains("its scenes are 0 `near`, 1, 2 `0`"),
             "{error}"
         );
     }
