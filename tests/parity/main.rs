@@ -2,11 +2,8 @@
 
 mod chain;
 mod devices;
-mod edges;
 mod embed;
 mod faults;
-mod frames;
-mod functions;
 mod phases;
 mod raster;
 mod shaders;

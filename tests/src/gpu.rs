@@ -1,4 +1,4 @@
-//! Devices for tests, kept for many tests and used by one at a time.
+//! Devices for tests, opened once a process and used by one test at a time.
 
 use crate::assets::skipped;
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
@@ -59,10 +59,6 @@ pub fn some(tests: &str) -> bool {
     false
 }
 
-/// Pipelines after which the next test gets a new device: a software driver holds tens of megabytes of code for each, as long
-/// as the device lives.
-const PIPELINES: usize = 100;
-
 type Slot = OnceLock<Mutex<WgpuBackend>>;
 
 /// The device of a tier, locked for one test; none if this machine has no such adapter, which is counted.
@@ -90,10 +86,7 @@ pub fn device(tier: Tier, strict: bool, tests: &str) -> Option<MutexGuard<'stati
     };
     let backend = slot.get_or_init(|| Mutex::new(open()));
     // A test that failed leaves nothing behind on the device.
-    let mut backend = backend.lock().unwrap_or_else(PoisonError::into_inner);
-    if backend.context().pipelines_made() > PIPELINES {
-        *backend = open();
-    }
+    let backend = backend.lock().unwrap_or_else(PoisonError::into_inner);
     Some(backend)
 }
 

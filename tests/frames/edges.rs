@@ -1,6 +1,6 @@
 //! Sizes and counts at their ends, on both backends.
 
-use crate::frames::agree;
+use crate::agree;
 use vsgl_core::Error;
 use vsgl_core::backend::Backend;
 use vsgl_core::data::SceneData;
