@@ -23,6 +23,10 @@ pub fn shot(root: &Path, name: &str) -> Shot {
     let view = &views[name];
     let field = |key: &str| view[key].as_str();
     let mut scene = gltf::load(&root.join(field("scene").expect("a scene"))).expect(name);
+    // The references hold the light of the view's spot alone: emissive materials do not shine in them.
+    for material in &mut scene.materials {
+        material.emission = [0.0; 3];
+    }
     if let Some(words) = field("light") {
         scene.lights = vec![light(words, scene.origin)];
     }
