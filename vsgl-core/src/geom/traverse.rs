@@ -344,6 +344,23 @@ mod tests {
         }
     }
 
+    /// Origins and directions of a block of rays, component by component.
+    fn lanes(block: &[Ray]) -> ([[f32; LANES]; 3], [[f32; LANES]; 3]) {
+        let lane = |f: fn(&Ray) -> f32| std::array::from_fn(|i| f(&block[i]));
+        (
+            [
+                lane(|r| r.origin.x),
+                lane(|r| r.origin.y),
+                lane(|r| r.origin.z),
+            ],
+            [
+                lane(|r| r.direction.x),
+                lane(|r| r.direction.y),
+                lane(|r| r.direction.z),
+            ],
+        )
+    }
+
     #[test]
     fn rays_pass_where_triangles_are_not() {
         let bvh = build(&soup());
@@ -351,17 +368,7 @@ mod tests {
         let rays: Vec<Ray> = rays().collect();
         let mut passed = 0;
         for block in rays.chunks_exact(LANES) {
-            let lane = |f: fn(&Ray) -> f32| std::array::from_fn(|i| f(&block[i]));
-            let origin = [
-                lane(|r| r.origin.x),
-                lane(|r| r.origin.y),
-                lane(|r| r.origin.z),
-            ];
-            let direction = [
-                lane(|r| r.direction.x),
-                lane(|r| r.direction.y),
-                lane(|r| r.direction.z),
-            ];
+            let (origin, direction) = lanes(block);
             let open = &[true; LANES];
             let together = any_hit_block(&bvh.nodes, &corners, &origin, &direction, open, &Sieve);
             for (ray, together) in block.iter().zip(together) {
@@ -391,17 +398,7 @@ mod tests {
         let corners: Vec<[f32; 9]> = bvh.order.iter().map(|&i| soup()[i as usize]).collect();
         let rays: Vec<Ray> = rays().collect();
         for block in rays.chunks_exact(LANES) {
-            let lane = |f: fn(&Ray) -> f32| std::array::from_fn(|i| f(&block[i]));
-            let origin = [
-                lane(|r| r.origin.x),
-                lane(|r| r.origin.y),
-                lane(|r| r.origin.z),
-            ];
-            let direction = [
-                lane(|r| r.direction.x),
-                lane(|r| r.direction.y),
-                lane(|r| r.direction.z),
-            ];
+            let (origin, direction) = lanes(block);
             let got = any_hit_block(
                 &bvh.nodes,
                 &corners,
