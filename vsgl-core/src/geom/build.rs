@@ -15,7 +15,7 @@ pub struct Bvh {
 /// Planes that are tried along an axis, and one more.
 const BINS: usize = 16;
 /// Most triangles of a leaf.
-const LEAF: usize = 8;
+pub const LEAF: usize = 8;
 /// Cost of a step to the children, in tests of a triangle.
 const STEP: f32 = 3.0;
 /// Longest path from the root, in inner nodes.

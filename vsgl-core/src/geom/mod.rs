@@ -6,7 +6,7 @@ mod ray;
 mod traverse;
 mod triangle;
 
-pub use build::{Bvh, build};
+pub use build::{Bvh, LEAF, build};
 pub use overlap::overlap;
 pub use ray::Ray;
 pub use traverse::{

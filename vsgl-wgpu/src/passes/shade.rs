@@ -13,6 +13,7 @@ use std::sync::Arc;
 use vsgl_core::Result;
 use vsgl_core::backend::{Senders, ShadeInputs};
 use vsgl_core::data::{LightRecord, Radiance};
+use vsgl_core::geom::LEAF;
 use vsgl_core::plan::ShadePlan;
 use vsgl_core::settings::{DiffuseForm, Emission, GlossyForm, OcclusionMethod};
 
@@ -22,11 +23,23 @@ const PAIRS_GPU: u64 = 1 << 30;
 const PAIRS_SOFTWARE: u64 = 1 << 23;
 /// What a pair costs with a ray, in pairs without.
 const RAY_COST: u64 = 8;
-/// Lights in one dispatch. Lavapipe leaves a shader's loops after 65,535 rounds in all, those of rays through the hierarchy
-/// included, without a word: so a ray may take eight thousand.
+/// Lights in one dispatch.
 const LIGHTS_GPU: u32 = 1 << 16;
 const LIGHTS_SOFTWARE: u32 = 1 << 14;
-const LIGHTS_SOFTWARE_RAYS: u32 = 1 << 3;
+/// Lavapipe leaves a shader's loops after so many rounds in all, those of rays through the hierarchy included, without a
+/// word.
+const ROUNDS_SOFTWARE: u64 = 65_535;
+/// Lights in one dispatch with rays through a hierarchy of any size: a ray may take eight thousand rounds.
+const LIGHTS_SOFTWARE_RAYS: u64 = 1 << 3;
+
+/// Lights in one dispatch on a software driver where each takes a ray through so many nodes: a ray that visits all of them
+/// ends before the driver leaves the loop. Few dispatches are better: for each, lavapipe keeps the private memory of all
+/// invocations until the process ends.
+fn lights_software_rays(nodes: u64) -> u32 {
+    let ray = nodes * (1 + LEAF as u64);
+    let most = u64::from(LIGHTS_SOFTWARE);
+    (ROUNDS_SOFTWARE / (4 + ray)).clamp(LIGHTS_SOFTWARE_RAYS, most) as u32
+}
 
 /// Twin of `Params` in `entry/shade.wgsl`.
 #[repr(C)]
@@ -133,7 +146,7 @@ impl Shading {
         let group = |rays: bool| match (software, rays) {
             (false, _) => LIGHTS_GPU,
             (true, false) => LIGHTS_SOFTWARE,
-            (true, true) => LIGHTS_SOFTWARE_RAYS,
+            (true, true) => lights_software_rays(inputs.scene.len("node")),
         };
         let groups = [group(true), group(plan.occlusion == OcclusionMethod::Rays)];
         let waits = bounce.as_ref().is_some_and(|b| b.lights > groups[1]);
