@@ -5,12 +5,12 @@ use criterion::{
     BenchmarkGroup, BenchmarkId, Criterion, Throughput, criterion_group, criterion_main,
 };
 use std::hint::black_box;
-use vsgl_core::backend::{Backend, Senders, ShadeInputs};
+use vsgl_core::backend::{Backend, PdfInputs, Senders, ShadeInputs};
 use vsgl_core::data::SceneData;
 use vsgl_core::plan::Plan;
 use vsgl_core::render::{View, render};
 use vsgl_core::scene::{Scene, SceneFacts, samples};
-use vsgl_core::settings::{Clustering, OcclusionMethod, Settings};
+use vsgl_core::settings::{Clustering, OcclusionMethod, PdfMethod, Settings};
 use vsgl_cpu::CpuBackend;
 use vsgl_wgpu::{WgpuBackend, WgpuOptions};
 
@@ -114,12 +114,21 @@ fn cluster_on<B: Backend>(c: &mut Criterion, backend: &B, name: &str) {
             let rsm = backend
                 .rsm(&set.data, &set.scene.lights, &bounce.rsm)
                 .expect("a phase");
+            let gbuffer = backend
+                .gbuffer(&set.data, &set.view, &set.plan.gbuffer)
+                .expect("a phase");
+            let inputs = PdfInputs {
+                scene: &set.data,
+                rsm: &rsm,
+                gbuffer: &gbuffer,
+                view: &set.view,
+            };
             group.bench_function(BenchmarkId::new(name, format!("{lights} lights")), |b| {
                 b.iter(|| {
                     let pdf = bounce
                         .pdf
                         .as_ref()
-                        .map(|p| backend.pdf(&rsm, p).expect("a phase"));
+                        .map(|p| backend.pdf(&inputs, p).expect("a phase"));
                     let made = backend.cluster(&set.data, black_box(&rsm), pdf.as_ref(), plan);
                     backend.finish().expect("a device");
                     made.expect("a phase")
@@ -128,6 +137,40 @@ fn cluster_on<B: Backend>(c: &mut Criterion, backend: &B, name: &str) {
         }
         group.finish();
     }
+}
+
+fn pdf_on<B: Backend>(c: &mut Criterion, backend: &B, name: &str) {
+    let mut group = group(c, "pdf 512x512 texels");
+    for &pdf in PdfMethod::ALL {
+        let settings = Settings {
+            clustering: Clustering::Filtered,
+            pdf,
+            ..Settings::default()
+        };
+        let set = Set::new(backend, SIZES[2], &settings);
+        let bounce = set.plan.bounce.as_ref().expect("a lit scene");
+        let plan = bounce.pdf.as_ref().expect("kernels are drawn");
+        let rsm = backend
+            .rsm(&set.data, &set.scene.lights, &bounce.rsm)
+            .expect("a phase");
+        let gbuffer = backend
+            .gbuffer(&set.data, &set.view, &set.plan.gbuffer)
+            .expect("a phase");
+        group.bench_function(BenchmarkId::new(name, pdf), |b| {
+            b.iter(|| {
+                let inputs = PdfInputs {
+                    scene: &set.data,
+                    rsm: black_box(&rsm),
+                    gbuffer: &gbuffer,
+                    view: &set.view,
+                };
+                let made = backend.pdf(&inputs, plan);
+                backend.finish().expect("a device");
+                made.expect("a phase")
+            });
+        });
+    }
+    group.finish();
 }
 
 /// Throughput is pairs of a sample and a virtual light.
@@ -202,6 +245,9 @@ fn frame_on<B: Backend>(c: &mut Criterion, backend: &B, name: &str) {
 fn visibility(c: &mut Criterion) {
     both!(visibility_on, c);
 }
+fn pdf(c: &mut Criterion) {
+    both!(pdf_on, c);
+}
 fn cluster(c: &mut Criterion) {
     both!(cluster_on, c);
 }
@@ -212,5 +258,5 @@ fn frame(c: &mut Criterion) {
     both!(frame_on, c);
 }
 
-criterion_group!(benches, visibility, cluster, shade, frame);
+criterion_group!(benches, visibility, pdf, cluster, shade, frame);
 criterion_main!(benches);

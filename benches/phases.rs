@@ -3,13 +3,13 @@
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use std::hint::black_box;
 use std::sync::Arc;
-use vsgl_core::backend::{Backend, Senders, ShadeInputs};
-use vsgl_core::data::{Pdf, Rsm, SceneData};
+use vsgl_core::backend::{Backend, PdfInputs, Senders, ShadeInputs};
+use vsgl_core::data::{GBuffer, Pdf, Rsm, SceneData};
 use vsgl_core::glam::Vec3;
-use vsgl_core::plan::{BouncePlan, Plan, RsmPlan};
+use vsgl_core::plan::{BouncePlan, PdfPlan, Plan, RsmPlan};
 use vsgl_core::render::{View, render};
 use vsgl_core::scene::{Light, PointLight, Scene, SceneFacts, samples};
-use vsgl_core::settings::{Clustering, OcclusionMethod, Preset, Settings};
+use vsgl_core::settings::{Clustering, OcclusionMethod, PdfMethod, Preset, Settings};
 use vsgl_cpu::CpuBackend;
 
 /// A scene with everything that its phases read, uploaded.
@@ -38,6 +38,22 @@ impl Set {
         let facts = SceneFacts::new(&self.scene, &self.scene.lights, &self.view.camera);
         Plan::new(&facts, settings).expect("settings that fit together")
     }
+
+    fn gbuffer(&self) -> Arc<GBuffer> {
+        let plan = self.plan(&Settings::default());
+        let made = self.backend.gbuffer(&self.data, &self.view, &plan.gbuffer);
+        made.expect("cpu")
+    }
+
+    fn density(&self, rsm: &Arc<Rsm>, gbuffer: &Arc<GBuffer>, plan: &PdfPlan) -> Arc<Pdf> {
+        let inputs = PdfInputs {
+            scene: &self.data,
+            rsm,
+            gbuffer,
+            view: &self.view,
+        };
+        self.backend.pdf(&inputs, plan).expect("cpu")
+    }
 }
 
 /// The maps of the lights, and the density where the plan draws from one.
@@ -47,8 +63,29 @@ fn light_side(set: &Set, bounce: &BouncePlan) -> (Arc<Rsm>, Option<Arc<Pdf>>) {
         .rsm(&set.data, &set.scene.lights, &bounce.rsm)
         .expect("cpu");
     let pdf = bounce.pdf.as_ref();
-    let pdf = pdf.map(|p| set.backend.pdf(&rsm, p).expect("cpu"));
+    let pdf = pdf.map(|p| set.density(&rsm, &set.gbuffer(), p));
     (rsm, pdf)
+}
+
+fn densities(c: &mut Criterion) {
+    let set = Set::new("cornell", 640, 360);
+    let gbuffer = set.gbuffer();
+    let mut group = c.benchmark_group("pdf");
+    group.sample_size(10);
+    for &pdf in PdfMethod::ALL {
+        let plan = set.plan(&Settings {
+            clustering: Clustering::Filtered,
+            pdf,
+            ..Settings::default()
+        });
+        let bounce = plan.bounce.as_ref().expect("a lit scene");
+        let (rsm, _) = light_side(&set, bounce);
+        let plan = bounce.pdf.as_ref().expect("kernels are drawn");
+        group.bench_function(BenchmarkId::new(pdf.word(), "512² texels"), |b| {
+            b.iter(|| set.density(black_box(&rsm), &gbuffer, plan));
+        });
+    }
+    group.finish();
 }
 
 fn clusters(c: &mut Criterion) {
@@ -229,5 +266,5 @@ fn frames(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, clusters, maps, shading, frames);
+criterion_group!(benches, densities, clusters, maps, shading, frames);
 criterion_main!(benches);

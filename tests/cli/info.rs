@@ -60,6 +60,14 @@ fn the_plan_follows_the_flags() {
     assert_eq!(runs(&plan(""), "occlusion"), Some(true));
     assert_eq!(runs(&plan("--occlusion none"), "occlusion"), Some(false));
     assert_eq!(runs(&plan("--clustering filtered"), "pdf"), Some(true));
+    assert_eq!(
+        runs(&plan("--clustering filtered"), "importance"),
+        Some(false)
+    );
+    assert_eq!(
+        runs(&plan("--clustering filtered --pdf brsm"), "importance"),
+        Some(true)
+    );
     let dark = plan("--only-added-lights");
     assert_eq!(runs(&dark, "bounce"), Some(false));
     assert!(

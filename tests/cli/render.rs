@@ -201,6 +201,8 @@ fn brute_force_and_every_choice_of_a_setting_render() {
         "--method vpl",
         "--preset paper-2016",
         "--clustering filtered --pdf flux --kernel 2",
+        "--clustering filtered --pdf uniform",
+        "--clustering filtered --pdf brsm --set camera_lights=64",
         "--emission sg --diffuse 2024 --glossy asg-2013",
         "--occlusion none --glossy ndf-filter-2024",
         "--backend cpu --diffuse constant --set sharpness=toksvig",

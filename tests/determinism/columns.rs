@@ -1,7 +1,7 @@
 //! Every resource through bytes and back: the phases after it must not notice.
 
 use std::sync::Arc;
-use vsgl_core::backend::{Backend, Senders, ShadeInputs};
+use vsgl_core::backend::{Backend, PdfInputs, Senders, ShadeInputs};
 use vsgl_core::data::{Columns, SceneData};
 use vsgl_cpu::CpuBackend;
 use vsgl_tests::render::Shot;
@@ -23,7 +23,11 @@ fn copied<T: Columns>(backend: &CpuBackend, resource: &Arc<T>) -> Arc<T> {
 
 #[test]
 fn phases_by_hand_with_copies_between_make_the_same_picture() {
-    for settings in ["clustering=partition", "clustering=filtered"] {
+    for settings in [
+        "clustering=partition",
+        "clustering=filtered",
+        "clustering=filtered pdf=brsm camera_lights=64",
+    ] {
         let mut shot = Shot::sample("cornell").with(settings);
         shot.view.aa = 2;
         let plan = shot.plan();
@@ -32,19 +36,25 @@ fn phases_by_hand_with_copies_between_make_the_same_picture() {
         let b = CpuBackend::new(2).expect("threads");
         let scene = copied(&b, &b.upload(SceneData::new(&shot.scene)).expect("room"));
         let rsm = copied(&b, &b.rsm(&scene, &shot.lights, &bounce.rsm).expect("maps"));
-        let pdf = bounce
-            .pdf
-            .as_ref()
-            .map(|p| copied(&b, &b.pdf(&rsm, p).expect("a density")));
-        let vsgls = copied(
-            &b,
-            &b.cluster(&scene, &rsm, pdf.as_ref(), cluster)
-                .expect("clusters"),
-        );
         let gbuffer = copied(
             &b,
             &b.gbuffer(&scene, &shot.view, &plan.gbuffer)
                 .expect("receivers"),
+        );
+        let inputs = PdfInputs {
+            scene: &scene,
+            rsm: &rsm,
+            gbuffer: &gbuffer,
+            view: &shot.view,
+        };
+        let pdf = bounce
+            .pdf
+            .as_ref()
+            .map(|p| copied(&b, &b.pdf(&inputs, p).expect("a density")));
+        let vsgls = copied(
+            &b,
+            &b.cluster(&scene, &rsm, pdf.as_ref(), cluster)
+                .expect("clusters"),
         );
         let inputs = ShadeInputs {
             scene: &scene,

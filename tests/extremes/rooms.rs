@@ -76,7 +76,12 @@ pub(crate) fn common() -> Vec<(String, Settings)> {
             all.push((format!("{preset} {words}"), with(preset.settings(), words)));
         }
     }
-    for words in ["method=vpl", "clustering=filtered"] {
+    for words in [
+        "method=vpl",
+        "clustering=filtered",
+        "clustering=filtered pdf=uniform",
+        "clustering=filtered pdf=brsm camera_lights=64",
+    ] {
         all.push((words.into(), with(Settings::default(), words)));
     }
     all

@@ -193,6 +193,7 @@ fn lights_of_all_kinds() {
         for settings in [
             "lights=64 rsm=32",
             "lights=40 rsm=32 clustering=filtered",
+            "lights=40 rsm=32 clustering=filtered pdf=brsm camera_lights=128",
             "lights=40 rsm=16 emission=sg",
             "method=vpl rsm=8",
         ] {
@@ -242,6 +243,7 @@ fn surfaces_that_shine() {
         "lights=64 rsm=64",
         "lights=64 rsm=64 occlusion=none",
         "lights=40 rsm=32 clustering=filtered",
+        "lights=40 rsm=32 clustering=filtered pdf=brsm camera_lights=128",
         "lights=40 rsm=300 emission=sg",
         "method=vpl rsm=8",
     ] {
@@ -330,6 +332,9 @@ fn every_choice_of_the_settings() {
         "emission=sg glossy=asg-2013",
         "occlusion=none",
         "clustering=filtered",
+        "clustering=filtered pdf=uniform",
+        "clustering=filtered pdf=brsm",
+        "clustering=filtered pdf=brsm camera_lights=1",
         "clustering=filtered emission=sg sharpness=toksvig variance=trace diffuse=constant glossy=asg-2013",
         "sharpness=toksvig",
         "variance=trace",
@@ -352,6 +357,7 @@ fn every_choice_where_surfaces_are_anisotropic() {
         "glossy=ndf-filter-2024",
         "emission=sg glossy=asg-2013",
         "clustering=filtered",
+        "clustering=filtered pdf=brsm camera_lights=256",
         "method=vpl rsm=16",
     ] {
         let shot = Shot::of(everything(true, 4.0))

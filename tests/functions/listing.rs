@@ -213,14 +213,18 @@ fn every_function_has_a_twin_and_a_test() {
 
 /// Plain functions of whole records, such as a map, a camera or the sums of a cluster, and of indices: every pixel, cluster
 /// and round of the phases compares them.
-const COMPARED_AS_PHASES: [&str; 18] = [
+const COMPARED_AS_PHASES: [&str; 22] = [
     "cluster_lights",
     "cluster_stretched",
+    "camera_map_sample",
+    "camera_map_texel",
     "direct_incoming",
     "emit_point",
     "emit_texel",
     "footprint_step",
     "gbuffer_ray",
+    "importance_density",
+    "importance_first_light",
     "kernel_record",
     "normal_map_facing",
     "pdf_fibonacci",

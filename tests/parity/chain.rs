@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 use vsgl_core::Result;
-use vsgl_core::backend::{Backend, Senders, ShadeInputs};
+use vsgl_core::backend::{Backend, PdfInputs, Senders, ShadeInputs};
 use vsgl_core::data::{Columns, GBuffer, Image, Pdf, Radiance, Rsm, SceneData, Vsgls};
 use vsgl_core::parity::{Origin, Party, Stage, Step, Subject, Tolerance, chain};
 use vsgl_core::plan::{ClusterPlan, GBufferPlan, PdfPlan, RsmPlan, ShadePlan};
@@ -68,8 +68,14 @@ impl Backend for Faulty {
         self.spoil(Phase::Rsm, sound, spoil)
     }
 
-    fn pdf(&self, rsm: &Arc<Rsm>, plan: &PdfPlan) -> Result<Arc<Pdf>> {
-        let sound = self.cpu.pdf(rsm, plan);
+    fn pdf(&self, inputs: &PdfInputs<'_, Self>, plan: &PdfPlan) -> Result<Arc<Pdf>> {
+        let inputs = PdfInputs::<CpuBackend> {
+            scene: inputs.scene,
+            rsm: inputs.rsm,
+            gbuffer: inputs.gbuffer,
+            view: inputs.view,
+        };
+        let sound = self.cpu.pdf(&inputs, plan);
         // Another scale alone would draw the same lights.
         self.spoil(Phase::Pdf, sound, |p| {
             p.weight.iter_mut().step_by(2).for_each(|w| *w *= 1.5)

@@ -90,8 +90,8 @@ fn phases_are_timed_and_the_clock_is_named() {
         phases,
         [
             Phase::Rsm,
-            Phase::Cluster,
             Phase::GBuffer,
+            Phase::Cluster,
             Phase::Shade,
             Phase::Resolve
         ]

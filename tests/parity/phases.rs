@@ -1,8 +1,8 @@
 //! Density and clusters: the CPU's maps go into both backends, and what comes out must agree in every bit.
 
 use std::sync::Arc;
-use vsgl_core::backend::Backend;
-use vsgl_core::data::{Columns, Pdf, Rsm, SceneData, Vsgls};
+use vsgl_core::backend::{Backend, PdfInputs};
+use vsgl_core::data::{Columns, GBuffer, Pdf, Rsm, SceneData, Vsgls};
 use vsgl_core::plan::BouncePlan;
 use vsgl_cpu::CpuBackend;
 use vsgl_tests::assets::assets;
@@ -75,11 +75,26 @@ fn made(gpu: &WgpuBackend, shot: &Shot) -> Made {
     let rsm: Arc<Rsm> = cpu.rsm(&scene, &shot.lights, &bounce.rsm).expect("maps");
     let scene_gpu = gpu.upload(SceneData::clone(&scene)).expect("room");
     let rsm_gpu = gpu.upload(Rsm::clone(&rsm)).expect("room");
+    let gbuffer = cpu.gbuffer(&scene, &shot.view, &plan.gbuffer);
+    let gbuffer: Arc<GBuffer> = gbuffer.expect("receivers");
+    let gbuffer_gpu = gpu.upload(GBuffer::clone(&gbuffer)).expect("room");
     let pdf = bounce.pdf.as_ref().map(|plan| {
-        let made = gpu.pdf(&rsm_gpu, plan).expect("a density");
+        let inputs = PdfInputs {
+            scene: &scene_gpu,
+            rsm: &rsm_gpu,
+            gbuffer: &gbuffer_gpu,
+            view: &shot.view,
+        };
+        let made = gpu.pdf(&inputs, plan).expect("a density");
+        let inputs = PdfInputs {
+            scene: &scene,
+            rsm: &rsm,
+            gbuffer: &gbuffer,
+            view: &shot.view,
+        };
         [
             Arc::new(gpu.download(&made).expect("a density")),
-            cpu.pdf(&rsm, plan).expect("a density"),
+            cpu.pdf(&inputs, plan).expect("a density"),
         ]
     });
     let pdf_cpu = pdf.as_ref().map(|[_, cpu]| cpu.clone());
@@ -152,9 +167,40 @@ fn kernels_by_any_number_from_any_size() {
 }
 
 #[test]
+fn densities_of_any_size() {
+    let shot = Shot::sample("cornell").with("clustering=filtered pdf=brsm");
+    check(
+        "cornell",
+        &shot,
+        &[
+            "pdf=uniform rsm=1 lights=16",
+            "pdf=uniform rsm=17 lights=300",
+            "pdf=uniform rsm=64 lights=1024",
+            "rsm=1 lights=16",
+            "rsm=2 lights=16",
+            "rsm=3 lights=1 camera_lights=1",
+            "rsm=17 lights=300 camera_lights=100",
+            "rsm=64 lights=65536 camera_lights=65536",
+            "rsm=256 lights=1024",
+        ],
+    );
+    check("cornell, one pixel", &shot.clone().size(1, 1), &["rsm=64"]);
+    check("cornell, tall", &shot.clone().size(3, 500), &["rsm=64"]);
+    let mut lambert = shot;
+    for material in &mut lambert.scene.materials {
+        (material.metallic, material.specular) = (0.0, 0.0);
+    }
+    check("Lambert alone", &lambert, &["rsm=64"]);
+}
+
+#[test]
 fn built_in_scenes() {
     for name in ["glossy-floor", "columns", "caustic-ring", "roughness-row"] {
-        let all = ["rsm=64 lights=256", "rsm=64 lights=256 clustering=filtered"];
+        let all = [
+            "rsm=64 lights=256",
+            "rsm=64 lights=256 clustering=filtered",
+            "rsm=64 lights=256 clustering=filtered pdf=brsm camera_lights=300",
+        ];
         check(name, &Shot::sample(name), &all);
     }
 }
@@ -166,6 +212,8 @@ fn several_maps_and_dark_ones() {
         "lights=256",
         "lights=2 clustering=filtered",
         "clustering=filtered",
+        "clustering=filtered pdf=uniform",
+        "clustering=filtered pdf=brsm camera_lights=200",
     ];
     let mut shot = Shot::sample("many-lights:3").with("rsm=50");
     check("many-lights", &shot, &settings);

@@ -1,6 +1,7 @@
 //! What no renderer may break: energy is kept, and the limit of many lights is the exact sum.
 
 mod convergence;
+mod density;
 mod emission;
 mod emitters;
 mod energy;

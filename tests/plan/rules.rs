@@ -4,7 +4,7 @@ use vsgl_core::data::map_kind;
 use vsgl_core::glam::Vec3;
 use vsgl_core::plan::{Plan, SurfacePlan};
 use vsgl_core::scene::{DirectionalLight, Light, Material, PointLight, SpotLight, TextureRef};
-use vsgl_core::settings::{OcclusionMethod, Primary};
+use vsgl_core::settings::{Emission, OcclusionMethod, Preset, Primary, Settings};
 use vsgl_tests::render::Shot;
 
 fn shot(settings: &str) -> Shot {
@@ -322,7 +322,53 @@ fn a_density_only_for_samples() {
         .bounce
         .expect("a bounce")
         .pdf;
-    assert_eq!(pdf.expect("a density").count, 77);
+    let pdf = pdf.expect("a density");
+    assert_eq!((pdf.count, pdf.importance), (77, None));
+}
+
+#[test]
+fn importance_only_for_the_density_that_asks_what_is_seen() {
+    for (settings, expected) in [
+        ("clustering=partition pdf=brsm", None),
+        ("method=vpl rsm=16 clustering=filtered pdf=brsm", None),
+        (
+            "clustering=filtered pdf=flux",
+            Some((false, "the density asks only what the lights see")),
+        ),
+        (
+            "clustering=filtered pdf=uniform",
+            Some((false, "the density asks only what the lights see")),
+        ),
+        (
+            "clustering=filtered pdf=brsm",
+            Some((
+                true,
+                "virtual lights from what the camera sees say which texels matter to it",
+            )),
+        ),
+    ] {
+        let plan = shot(settings).plan();
+        assert_eq!(reason(&plan, "importance"), expected, "{settings}");
+        let bounce = plan.bounce.as_ref().expect("a bounce");
+        let made = bounce.pdf.as_ref().and_then(|p| p.importance.as_ref());
+        assert_eq!(made.is_some(), expected.is_some_and(|e| e.0), "{settings}");
+    }
+    // Senders and receivers change places, in the forms of the library whatever those of the settings are.
+    let mut half = shot("clustering=filtered pdf=brsm camera_lights=99");
+    half.settings = Settings {
+        clustering: half.settings.clustering,
+        pdf: half.settings.pdf,
+        camera_lights: 99,
+        ..Preset::Paper2016.settings()
+    };
+    let mut plan = half.plan();
+    let pdf = plan.bounce.take().expect("a bounce").pdf;
+    let made = pdf.and_then(|p| p.importance).expect("importance");
+    assert_eq!(made.cluster.count, 99);
+    assert_eq!(made.cluster.emission, Emission::Cosine);
+    assert_eq!(made.cluster.glossy, plan.shade.glossy_receivers);
+    assert_eq!(made.shade.glossy_receivers, plan.shade.glossy_senders);
+    assert_eq!(made.shade.occlusion, OcclusionMethod::None);
 }
 
 #[test]

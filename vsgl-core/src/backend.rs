@@ -56,7 +56,7 @@ pub trait Backend: Sized {
     ///
     /// # Errors
     /// If the device failed.
-    fn pdf(&self, rsm: &Self::Res<Rsm>, plan: &PdfPlan) -> Result<Self::Res<Pdf>>;
+    fn pdf(&self, inputs: &PdfInputs<'_, Self>, plan: &PdfPlan) -> Result<Self::Res<Pdf>>;
     /// Virtual spherical Gaussian lights from the texels.
     ///
     /// # Errors
@@ -88,6 +88,18 @@ pub trait Backend: Sized {
         radiance: &Self::Res<Radiance>,
         view: &View,
     ) -> Result<Self::Res<Image>>;
+}
+
+/// What the density is made from.
+pub struct PdfInputs<'a, B: Backend> {
+    /// The scene.
+    pub scene: &'a B::Res<SceneData>,
+    /// The texels.
+    pub rsm: &'a B::Res<Rsm>,
+    /// What the camera sees. Read only where the plan asks for importance, like all below.
+    pub gbuffer: &'a B::Res<GBuffer>,
+    /// The view that it was seen through.
+    pub view: &'a View,
 }
 
 /// What shading reads.

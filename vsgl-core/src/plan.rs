@@ -96,12 +96,23 @@ impl RsmPlan {
 }
 
 /// The density on the texels.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct PdfPlan {
     /// Which density.
     pub method: PdfMethod,
     /// Clusters to share out between the maps.
     pub count: u32,
+    /// What [`PdfMethod::Brsm`] takes, and no other.
+    pub importance: Option<ImportancePlan>,
+}
+
+/// How much texels matter to what the camera sees.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ImportancePlan {
+    /// Virtual lights from what the camera sees.
+    pub cluster: ClusterPlan,
+    /// What texels reflect of their light.
+    pub shade: ShadePlan,
 }
 
 /// The clusters.
@@ -261,30 +272,15 @@ impl Plan {
                 )],
                 "one ray from each pixel to each virtual light",
             );
-        let bounce = rsm.map(|size| BouncePlan {
-            rsm: RsmPlan {
-                lights: reflected,
-                emitters: shines,
-                size,
-                glossy: senders,
-                surface: sent,
-            },
-            pdf: samples.then_some(PdfPlan {
-                method: settings.pdf,
-                count: settings.lights,
-            }),
-            cluster: clusters.then_some(ClusterPlan {
-                count: settings.lights,
-                method: settings.clustering,
-                kernel: settings.kernel,
-                bisections: settings.bisections,
-                emission: settings.emission,
-                sharpness: settings.sharpness,
-                variance: settings.variance,
-                glossy: senders,
-                anisotropic: stretching,
-            }),
-        });
+        let important = samples
+            && reasons.decide(
+                "importance",
+                &[(
+                    settings.pdf == PdfMethod::Brsm,
+                    "the density asks only what the lights see",
+                )],
+                "virtual lights from what the camera sees say which texels matter to it",
+            );
         let shade = ShadePlan {
             bounce: lit,
             emitters: shines,
@@ -302,6 +298,32 @@ impl Plan {
             },
             masks: seen.masks,
         };
+        let importance = important.then(|| ImportancePlan::new(settings, &shade));
+        let bounce = rsm.map(|size| BouncePlan {
+            rsm: RsmPlan {
+                lights: reflected,
+                emitters: shines,
+                size,
+                glossy: senders,
+                surface: sent,
+            },
+            pdf: samples.then_some(PdfPlan {
+                method: settings.pdf,
+                count: settings.lights,
+                importance,
+            }),
+            cluster: clusters.then_some(ClusterPlan {
+                count: settings.lights,
+                method: settings.clustering,
+                kernel: settings.kernel,
+                bisections: settings.bisections,
+                emission: settings.emission,
+                sharpness: settings.sharpness,
+                variance: settings.variance,
+                glossy: senders,
+                anisotropic: stretching,
+            }),
+        });
         let raster = reasons.decide(
             "raster",
             &[
@@ -331,6 +353,39 @@ impl Plan {
             shade,
             reasons: reasons.0,
         })
+    }
+}
+
+impl ImportancePlan {
+    /// In the forms of this library whatever the settings' forms are: the way of light from the camera to the texels, with
+    /// senders and receivers changed round.
+    fn new(settings: &Settings, shade: &ShadePlan) -> Self {
+        let forms = Settings::default();
+        Self {
+            cluster: ClusterPlan {
+                count: settings.camera_lights,
+                method: Clustering::Partition,
+                kernel: forms.kernel,
+                bisections: forms.bisections,
+                emission: forms.emission,
+                sharpness: forms.sharpness,
+                variance: forms.variance,
+                glossy: shade.glossy_receivers,
+                anisotropic: shade.anisotropic_receivers,
+            },
+            shade: ShadePlan {
+                emitters: false,
+                glossy_receivers: shade.glossy_senders,
+                glossy_senders: shade.glossy_receivers,
+                anisotropic_receivers: shade.anisotropic_senders,
+                anisotropic_senders: shade.anisotropic_receivers,
+                emission: forms.emission,
+                diffuse: forms.diffuse,
+                glossy: forms.glossy,
+                occlusion: OcclusionMethod::None,
+                ..shade.clone()
+            },
+        }
     }
 }
 

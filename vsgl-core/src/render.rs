@@ -1,6 +1,6 @@
 //! The order of the phases, once for all backends.
 
-use crate::backend::{Backend, Senders, ShadeInputs};
+use crate::backend::{Backend, PdfInputs, Senders, ShadeInputs};
 use crate::data::{GBuffer, Image, Pdf, Radiance, Rsm, SceneData, Vsgls};
 use crate::error::{Error, Result};
 use crate::plan::Plan;
@@ -156,7 +156,7 @@ pub struct Frame<B: Backend> {
     pub image: B::Res<Image>,
 }
 
-/// Renders a picture: RSM → PDF → cluster → shade, as far as the plan wants them.
+/// Renders a picture: RSM → G-buffer → PDF → cluster → shade → resolve, as far as the plan wants them.
 ///
 /// # Errors
 /// [`Error::Cancelled`] if the observer says so, and what the backend's phases return.
@@ -172,8 +172,19 @@ pub fn render<B: Backend>(
     let rsm = bounce
         .map(|p| run(observer, Phase::Rsm, || backend.rsm(scene, lights, &p.rsm)))
         .transpose()?;
+    let gbuffer = run(observer, Phase::GBuffer, || {
+        backend.gbuffer(scene, view, &plan.gbuffer)
+    })?;
     let pdf = match (&rsm, bounce.and_then(|p| p.pdf.as_ref())) {
-        (Some(rsm), Some(p)) => Some(run(observer, Phase::Pdf, || backend.pdf(rsm, p))?),
+        (Some(rsm), Some(p)) => {
+            let inputs = PdfInputs {
+                scene,
+                rsm,
+                gbuffer: &gbuffer,
+                view,
+            };
+            Some(run(observer, Phase::Pdf, || backend.pdf(&inputs, p))?)
+        }
         _ => None,
     };
     let vsgls = match (&rsm, bounce.and_then(|p| p.cluster.as_ref())) {
@@ -182,9 +193,6 @@ pub fn render<B: Backend>(
         })?),
         _ => None,
     };
-    let gbuffer = run(observer, Phase::GBuffer, || {
-        backend.gbuffer(scene, view, &plan.gbuffer)
-    })?;
     let senders = match (&vsgls, &rsm) {
         (Some(vsgls), _) => Senders::Vsgls(vsgls),
         (None, Some(rsm)) => Senders::Vpls(rsm),

@@ -16,6 +16,8 @@ pub struct Settings {
     pub clustering: Clustering,
     /// Density from which cluster centres are drawn, for clusterings that sample.
     pub pdf: PdfMethod,
+    /// Virtual lights made from what the camera sees, for the density `brsm`: 1 ..= [`Settings::LIGHTS_MAX`].
+    pub camera_lights: u32,
     /// Overlap of filtered kernels: each holds `kernel / lights` of the density. Above 1 steadies and blurs.
     pub kernel: f32,
     /// Steps of the bisection for the size of filtered kernels.
@@ -44,6 +46,7 @@ impl Default for Settings {
             rsm: 512,
             clustering: Clustering::Partition,
             pdf: PdfMethod::Flux,
+            camera_lights: 2048,
             kernel: 1.0,
             bisections: 12,
             emission: Emission::Cosine,
@@ -110,8 +113,12 @@ choice! {
 choice! {
     /// Density on the texels.
     pub enum PdfMethod {
+        /// Equal on all texels that reflect light.
+        Uniform = "uniform",
         /// Luminance of the reflected flux.
         Flux = "flux",
+        /// That of the flux that matters to what the camera sees (bidirectional reflective shadow maps, Ritschel et al. 2011).
+        Brsm = "brsm",
     }
 }
 choice! {
@@ -222,6 +229,7 @@ impl Settings {
         "rsm",
         "clustering",
         "pdf",
+        "camera_lights",
         "kernel",
         "bisections",
         "emission",
@@ -241,6 +249,7 @@ impl Settings {
             self.rsm.to_string(),
             self.clustering.to_string(),
             self.pdf.to_string(),
+            self.camera_lights.to_string(),
             self.kernel.to_string(),
             self.bisections.to_string(),
             self.emission.to_string(),
@@ -267,6 +276,7 @@ impl Settings {
                 self.clustering = word(key, value, Clustering::from_word, Clustering::WORDS)?
             }
             "pdf" => self.pdf = word(key, value, PdfMethod::from_word, PdfMethod::WORDS)?,
+            "camera_lights" => self.camera_lights = integer(key, value, 1, Self::LIGHTS_MAX)?,
             "kernel" => self.kernel = number(key, value, 1e-3, 1e6)?,
             "bisections" => self.bisections = integer(key, value, 1, 64)?,
             "emission" => self.emission = word(key, value, Emission::from_word, Emission::WORDS)?,

@@ -30,7 +30,7 @@
 mod phase;
 
 use std::sync::Arc;
-use vsgl_core::backend::{Backend, ShadeInputs};
+use vsgl_core::backend::{Backend, PdfInputs, ShadeInputs};
 use vsgl_core::data::{Columns, GBuffer, Image, Pdf, Radiance, Rsm, SceneData, Vsgls};
 use vsgl_core::plan::{ClusterPlan, GBufferPlan, PdfPlan, RsmPlan, ShadePlan};
 use vsgl_core::render::{Observer, View};
@@ -113,8 +113,10 @@ impl Backend for CpuBackend {
         ))
     }
 
-    fn pdf(&self, rsm: &Arc<Rsm>, plan: &PdfPlan) -> Result<Arc<Pdf>> {
-        Ok(Arc::new(self.pool.install(|| phase::pdf::run(rsm, plan))))
+    fn pdf(&self, inputs: &PdfInputs<'_, Self>, plan: &PdfPlan) -> Result<Arc<Pdf>> {
+        Ok(Arc::new(
+            self.pool.install(|| phase::pdf::run(inputs, plan)),
+        ))
     }
 
     fn cluster(

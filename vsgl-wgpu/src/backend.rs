@@ -7,7 +7,7 @@ use crate::recorder::Recorder;
 use crate::res::WgpuRes;
 use crate::timing::{Clock, Timings};
 use std::time::Instant;
-use vsgl_core::backend::{Backend, ShadeInputs};
+use vsgl_core::backend::{Backend, PdfInputs, ShadeInputs};
 use vsgl_core::data::{Columns, GBuffer, Image, Pdf, Radiance, Rsm, SceneData, Vsgls};
 use vsgl_core::plan::{ClusterPlan, GBufferPlan, PdfPlan, RsmPlan, ShadePlan};
 use vsgl_core::render::{Observer, Phase, View};
@@ -113,8 +113,8 @@ impl Backend for WgpuBackend {
         self.phase(Phase::Rsm, |r| passes::rsm::record(r, scene, lights, plan))
     }
 
-    fn pdf(&self, rsm: &WgpuRes<Rsm>, plan: &PdfPlan) -> Result<WgpuRes<Pdf>> {
-        self.phase(Phase::Pdf, |r| passes::pdf::record(r, rsm, plan))
+    fn pdf(&self, inputs: &PdfInputs<'_, Self>, plan: &PdfPlan) -> Result<WgpuRes<Pdf>> {
+        self.phase(Phase::Pdf, |r| passes::pdf::record(r, inputs, plan))
     }
 
     fn cluster(

@@ -19,7 +19,7 @@ use crate::passes::shade::Submits;
 use crate::recorder::Recorder;
 use crate::res::WgpuRes;
 use textures::check;
-use vsgl_core::backend::{Senders, ShadeInputs};
+use vsgl_core::backend::{PdfInputs, Senders, ShadeInputs};
 use vsgl_core::data::{GBuffer, Radiance, Rsm, SceneData};
 use vsgl_core::glam::Vec3;
 use vsgl_core::plan::Plan;
@@ -203,10 +203,24 @@ impl Context {
         }
         let scene = self.scene_or_none(inputs.scene)?;
         let rsm = inputs.rsm;
+        let view = View {
+            // Which way it looks says the G-buffer; that it sees a radian is near enough for how much texels matter.
+            camera: Camera::look_at(inputs.eye, inputs.eye + Vec3::NEG_Z, 1.0),
+            width: inputs.gbuffer.head[0],
+            height: inputs.gbuffer.head[1],
+            aa: 1,
+            stride: 1,
+        };
         let mut pdf = None;
         if let Some(plan) = &bounce.pdf {
             let mut recorder = Recorder::new(self, encoder, Phase::Pdf);
-            pdf = Some(passes::pdf::record(&mut recorder, rsm, plan)?);
+            let inputs = PdfInputs::<WgpuBackend> {
+                scene,
+                rsm,
+                gbuffer: inputs.gbuffer,
+                view: &view,
+            };
+            pdf = Some(passes::pdf::record(&mut recorder, &inputs, plan)?);
         }
         let mut vsgls = None;
         if let Some(plan) = &bounce.cluster {
@@ -214,18 +228,10 @@ impl Context {
             let made = passes::cluster::record(&mut recorder, scene, rsm, pdf.as_ref(), plan)?;
             vsgls = Some(made);
         }
-        let camera = Camera::look_at(inputs.eye, inputs.eye + Vec3::NEG_Z, 1.0);
-        let (width, height) = (inputs.gbuffer.head[0], inputs.gbuffer.head[1]);
         let shaded = ShadeInputs::<WgpuBackend> {
             scene,
             gbuffer: inputs.gbuffer,
-            view: &View {
-                camera,
-                width,
-                height,
-                aa: 1,
-                stride: 1,
-            },
+            view: &view,
             lights: &[],
             senders: vsgls.as_ref().map_or(Senders::Vpls(rsm), Senders::Vsgls),
         };

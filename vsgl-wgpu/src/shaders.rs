@@ -36,6 +36,7 @@ pub const MODULES: &[(&str, &str)] = modules![
     "data/vsgls_write",
     "data/words",
     "entry/best",
+    "entry/camera_map",
     "entry/cluster",
     "entry/emitters",
     "entry/export",
@@ -43,6 +44,7 @@ pub const MODULES: &[(&str, &str)] = modules![
     "entry/gbuffer",
     "entry/import_gbuffer",
     "entry/import_rsm",
+    "entry/importance",
     "entry/leaves",
     "entry/partition",
     "entry/pdf",
@@ -60,6 +62,7 @@ pub const MODULES: &[(&str, &str)] = modules![
     "math/moments",
     "math/vec",
     "phase/anisotropy",
+    "phase/camera_map",
     "phase/cluster",
     "phase/color",
     "phase/direct",
@@ -68,6 +71,7 @@ pub const MODULES: &[(&str, &str)] = modules![
     "phase/filtered",
     "phase/footprint",
     "phase/gbuffer",
+    "phase/importance",
     "phase/mask",
     "phase/normal_map",
     "phase/partition",
@@ -151,8 +155,8 @@ const fn words<T>() -> u32 {
 fn header() -> String {
     use vsgl_core::data::{self, map_kind};
     use vsgl_core::phase::{
-        cluster, direct, facing, footprint, normal_map, partition, pdf, rsm, shade, surface,
-        texture,
+        cluster, direct, facing, footprint, importance, normal_map, partition, pdf, rsm, shade,
+        surface, texture,
     };
     let floats: &[(&str, f32)] = &[
         ("ALPHA_MIN", surface::ALPHA_MIN),
@@ -167,6 +171,9 @@ fn header() -> String {
         ("MAP_EMITTERS", map_kind::EMITTERS),
         ("NORMAL_SCALE", partition::NORMAL_SCALE),
         ("BELOW_ONE", pdf::BELOW_ONE),
+        ("IMPORTANCE_FLOOR", importance::FLOOR),
+        ("IMPORTANCE_KEPT", importance::KEPT),
+        ("IMPORTANCE_MAX", importance::IMPORTANCE_MAX),
         ("GRAZING_MIN", footprint::GRAZING_MIN),
         ("HORIZON", normal_map::HORIZON),
         ("TANGENT_MIN", normal_map::TANGENT_MIN),
@@ -189,6 +196,7 @@ fn header() -> String {
         ("TEXEL_SIDE", crate::texels::SIDE),
         ("INVOCATIONS", crate::kernel::INVOCATIONS),
         ("GOLDEN_TURN", pdf::GOLDEN_TURN),
+        ("INTERLEAVE", importance::INTERLEAVE),
         ("PARTITION_BLOCK", partition::BLOCK as u32),
         ("PARTITION_LANES", partition::LANES as u32),
         ("CLUSTER_BLOCK", cluster::BLOCK as u32),

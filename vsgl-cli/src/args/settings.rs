@@ -33,7 +33,7 @@ pub struct SettingsArgs {
     /// Overlap of filtered kernels [default: 1]
     #[arg(long, value_name = "K", allow_hyphen_values = true)]
     pub kernel: Option<String>,
-    /// Density that filtered kernels are drawn from
+    /// Density that kernels are drawn from, if any are: equal, by flux, or by what of it matters to the camera [default: flux]
     #[arg(long, value_parser = PossibleValuesParser::new(PdfMethod::WORDS))]
     pub pdf: Option<String>,
     /// Shape of the light that a virtual light sends

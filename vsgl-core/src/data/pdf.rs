@@ -11,7 +11,8 @@ columns! {
             /// Number of maps.
             maps,
         }
-        /// Weight of each texel of each level \[W\]: level 0 of all maps, then level 1, down to one texel a map.
+        /// Weight of each texel of each level: level 0 of all maps, then level 1, down to one texel a map. Watts with the
+        /// density `flux`; with others only those of one map are to be compared.
         /// A texel is the sum of the four below it, added `(a + b) + (c + d)`.
         weight: f32,
         /// Lights of each map, shared out by flux; they add up to the number asked for.

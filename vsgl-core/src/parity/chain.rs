@@ -3,7 +3,7 @@
 use super::compare::{Origin, Side, agreement, compare};
 use super::tolerance::Tolerance;
 use super::verdict::Comparison;
-use crate::backend::{Backend, Senders, ShadeInputs};
+use crate::backend::{Backend, PdfInputs, Senders, ShadeInputs};
 use crate::data::{Columns, GBuffer, Image, Pdf, Rsm, SceneData, Vsgls};
 use crate::error::{Error, Result};
 use crate::plan::Plan;
@@ -91,7 +91,7 @@ pub fn chain<R: Backend, T: Backend>(
         || r.gbuffer(&scene.reference, view, &plan.gbuffer),
         || t.gbuffer(&scene.tested, view, &plan.gbuffer),
     )?;
-    let senders = run.senders(&scene, subject)?;
+    let senders = run.senders(&scene, &gbuffer, subject)?;
     let inputs = ShadeInputs {
         scene: &scene.reference,
         gbuffer: &gbuffer.reference,
@@ -219,6 +219,7 @@ impl<R: Backend, T: Backend> Run<'_, R, T> {
     fn senders(
         &mut self,
         scene: &Twin<R, T, SceneData>,
+        gbuffer: &Twin<R, T, GBuffer>,
         subject: &Subject<'_>,
     ) -> Result<Twins<R, T>> {
         let (r, t) = (self.reference.backend, self.tested.backend);
@@ -230,11 +231,23 @@ impl<R: Backend, T: Backend> Run<'_, R, T> {
             || r.rsm(&scene.reference, subject.lights, &bounce.rsm),
             || t.rsm(&scene.tested, subject.lights, &bounce.rsm),
         )?;
+        let inputs = PdfInputs {
+            scene: &scene.reference,
+            rsm: &rsm.reference,
+            gbuffer: &gbuffer.reference,
+            view: subject.view,
+        };
+        let tested_inputs = PdfInputs {
+            scene: &scene.tested,
+            rsm: &rsm.tested,
+            gbuffer: &gbuffer.tested,
+            view: subject.view,
+        };
         let pdf: Option<Twin<R, T, Pdf>> = match &bounce.pdf {
             Some(plan) => Some(self.phase(
                 Phase::Pdf,
-                || r.pdf(&rsm.reference, plan),
-                || t.pdf(&rsm.tested, plan),
+                || r.pdf(&inputs, plan),
+                || t.pdf(&tested_inputs, plan),
             )?),
             None => None,
         };

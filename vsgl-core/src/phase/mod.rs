@@ -3,6 +3,7 @@
 //! Backends loop over these functions, or repeat them word for word in their own language.
 
 pub mod anisotropy;
+pub mod camera_map;
 pub mod cluster;
 pub mod color;
 pub mod direct;
@@ -11,6 +12,7 @@ pub mod facing;
 pub mod filtered;
 pub mod footprint;
 pub mod gbuffer;
+pub mod importance;
 pub mod mask;
 pub mod normal_map;
 pub mod partition;

@@ -1,17 +1,6 @@
 //! The density on the texels, and drawing from it.
 
-use crate::data::{Pdf, Rsm};
-use crate::settings::PdfMethod;
-
-/// Weight of one texel before normalisation \[W\].
-pub fn weight(method: PdfMethod, rsm: &Rsm, texel: usize) -> f32 {
-    match method {
-        PdfMethod::Flux => {
-            let (diffuse, specular) = rsm.weights(texel);
-            diffuse + specular
-        }
-    }
-}
+use crate::data::Pdf;
 
 /// Shares `count` lights out between maps by their weight; they add up to `count` unless no map has weight.
 ///

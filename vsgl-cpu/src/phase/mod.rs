@@ -2,9 +2,11 @@
 
 pub(crate) mod band;
 pub mod block;
+pub(crate) mod camera_map;
 pub(crate) mod cluster;
 pub(crate) mod filtered;
 pub(crate) mod gbuffer;
+pub(crate) mod importance;
 pub(crate) mod partition;
 pub(crate) mod pdf;
 pub(crate) mod resolve;

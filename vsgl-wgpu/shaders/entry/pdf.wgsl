@@ -1,6 +1,6 @@
-//! needs: data/index, math/vec, phase/pdf
-// The density, its pyramid, and the lights of each map. Twin of `vsgl-cpu/src/phase/pdf.rs`, and of `shares` in
-// `vsgl-core/src/phase/pdf.rs`.
+//! needs: data/index, math/vec, phase/importance, phase/pdf
+// The density, its pyramid, and the lights of each map. Twin of `vsgl-cpu/src/phase/pdf.rs`, of `shares` in
+// `vsgl-core/src/phase/pdf.rs` and of `smoothed` in `importance.rs` there.
 
 struct Params {
     // Of the density: texels along a side, and maps.
@@ -15,12 +15,19 @@ struct Params {
     lights: u32,
     // 1 if the RSM has the columns of the specular part.
     specular: u32,
+    // 1 to count texels with light instead of adding flux.
+    count: u32,
+    // Where totals of maps are kept: 0 those of texels with light, 1 those of what texels matter.
+    kept: u32,
 }
 
 @group(0) @binding(0) var<uniform> params: Params;
 @group(0) @binding(1) var<storage, read> texel: array<vec4<f32>>;
 @group(0) @binding(2) var<storage, read_write> weight: array<f32>;
 @group(0) @binding(3) var<storage, read_write> share: array<u32>;
+@group(0) @binding(4) var<storage, read_write> totals: array<f32>;
+// What texels reflect of the camera's lights.
+@group(0) @binding(5) var<storage, read> reflected: array<f32>;
 
 fn density() -> Pdf {
     return Pdf(params.size, params.maps);
@@ -36,17 +43,102 @@ fn texels(
     if i >= pdf_level_count(size, params.maps, 0u) {
         return;
     }
-    let x = i % size;
-    let y = i / size % size;
-    let at = (i / (size * size) * params.rsm_size + y) * params.rsm_size + x;
+    let at = place_of(i);
     var own = 0.0;
-    if x < params.rsm_size && y < params.rsm_size {
-        own = vec_luminance(texel[2u * params.texels + at].xyz);
-        if params.specular > 0u {
-            own += texel[4u * params.texels + at].w;
+    if at.inside {
+        own = flux_at(at.texel);
+        if params.count > 0u {
+            own = select(0.0, 1.0, own > 0.0);
         }
     }
     weight[i] = own;
+}
+
+struct Place {
+    texel: u32,
+    x: u32,
+    y: u32,
+    // Others are padding to a power of two.
+    inside: bool,
+}
+
+// The texel of the maps at an entry of level 0.
+fn place_of(i: u32) -> Place {
+    let size = params.size;
+    let x = i % size;
+    let y = i / size % size;
+    let at = (i / (size * size) * params.rsm_size + y) * params.rsm_size + x;
+    return Place(at, x, y, x < params.rsm_size && y < params.rsm_size);
+}
+
+// Luminance of the flux that a texel reflects.
+fn flux_at(at: u32) -> f32 {
+    var own = vec_luminance(texel[2u * params.texels + at].xyz);
+    if params.specular > 0u {
+        own += texel[4u * params.texels + at].w;
+    }
+    return own;
+}
+
+// Level 0 from what texels reflect of the camera's lights.
+@compute @workgroup_size(INVOCATIONS)
+fn smoothed(
+    @builtin(global_invocation_id) invocation: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+) {
+    let i = item_index(invocation, groups);
+    if i >= pdf_level_count(params.size, params.maps, 0u) {
+        return;
+    }
+    let at = place_of(i);
+    var own = 0.0;
+    if at.inside {
+        own = importance_smoothed(at);
+    }
+    weight[i] = own;
+}
+
+fn importance_smoothed(at: Place) -> f32 {
+    let size = params.rsm_size;
+    let first = at.texel - (at.y * size + at.x);
+    var sum = 0.0;
+    var flux = 0.0;
+    for (var row = max(at.y + 2u, INTERLEAVE) - INTERLEAVE; row < min(at.y + 2u, size); row += 1u) {
+        for (var column = max(at.x + 2u, INTERLEAVE) - INTERLEAVE; column < min(at.x + 2u, size); column += 1u) {
+            let near = first + row * size + column;
+            sum += reflected[near];
+            flux += flux_at(near);
+        }
+    }
+    if flux > 0.0 {
+        return sum * (flux_at(at.texel) / flux);
+    }
+    return 0.0;
+}
+
+// Keeps the totals of all maps. One invocation.
+@compute @workgroup_size(1)
+fn keep() {
+    for (var m = 0u; m < params.maps; m += 1u) {
+        totals[params.kept * params.maps + m] = pdf_total(density(), m);
+    }
+}
+
+// Level 0 from what texels matter, in place.
+@compute @workgroup_size(INVOCATIONS)
+fn mix_floor(
+    @builtin(global_invocation_id) invocation: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+) {
+    let i = item_index(invocation, groups);
+    if i >= pdf_level_count(params.size, params.maps, 0u) {
+        return;
+    }
+    let at = place_of(i);
+    if at.inside && flux_at(at.texel) > 0.0 {
+        let m = i / (params.size * params.size);
+        weight[i] = importance_density(weight[i], totals[params.maps + m], totals[m]);
+    }
 }
 
 @compute @workgroup_size(INVOCATIONS)

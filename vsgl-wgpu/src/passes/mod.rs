@@ -1,10 +1,12 @@
 //! One file a phase: what its kernels bind, and in which order they run. Everything is recorded into the caller's encoder.
 
+mod camera_map;
 pub(crate) mod cluster;
 pub(crate) mod export;
 mod filtered;
 pub(crate) mod gbuffer;
 pub(crate) mod import;
+mod importance;
 mod partition;
 pub(crate) mod pdf;
 pub(crate) mod resolve;

@@ -1,11 +1,14 @@
 //! The density on the texels.
 
+use super::importance;
+use crate::backend::WgpuBackend;
 use crate::kernel::KernelId;
-use crate::recorder::{Groups, Recorder};
+use crate::recorder::{Binding, Groups, Recorder};
 use crate::res::WgpuRes;
 use bytemuck::{Pod, Zeroable};
 use vsgl_core::Result;
-use vsgl_core::data::{Pdf, Rsm};
+use vsgl_core::backend::PdfInputs;
+use vsgl_core::data::Pdf;
 use vsgl_core::phase::pdf::{level_count, level_start, top_level};
 use vsgl_core::plan::PdfPlan;
 use vsgl_core::settings::PdfMethod;
@@ -21,26 +24,42 @@ struct Params {
     level: u32,
     lights: u32,
     specular: u32,
+    count: u32,
+    kept: u32,
 }
+
+/// Level 0 of each pyramid that a density takes, and the kernels that make it and what follows.
+const FLUX: &str = "texels";
+const MATTERS: &str = "smoothed";
+const MIXED: &str = "mix_floor";
 
 /// The pipelines that a plan needs.
 pub(crate) fn kernels(plan: &PdfPlan) -> Vec<KernelId> {
-    // The only one.
-    let PdfMethod::Flux = plan.method;
-    ["texels", "above", "shares"]
-        .map(|entry| KernelId::new("entry/pdf", entry, &[]))
-        .to_vec()
+    let mut entries = vec![FLUX, "above", "shares"];
+    let mut kernels = Vec::new();
+    if let Some(plan) = &plan.importance {
+        entries.extend(["keep", MATTERS, MIXED]);
+        kernels = importance::kernels(plan);
+    }
+    let of_file = |entry| KernelId::new("entry/pdf", entry, &[]);
+    kernels.extend(entries.into_iter().map(of_file));
+    kernels
 }
 
 /// Records the density and its pyramid.
 pub(crate) fn record(
     recorder: &mut Recorder<'_>,
-    rsm: &WgpuRes<Rsm>,
+    inputs: &PdfInputs<'_, WgpuBackend>,
     plan: &PdfPlan,
 ) -> Result<WgpuRes<Pdf>> {
     let context = recorder.context();
+    let rsm = inputs.rsm;
     let [rsm_size, maps] = rsm.head[..] else {
         return Err(context.error("an RSM without its size", "report it"));
+    };
+    let reflected = match &plan.importance {
+        Some(plan) => importance::record(recorder, inputs, plan)?,
+        None => context.buffer("no importance", 4)?,
     };
     let size = rsm_size.next_power_of_two();
     let top = top_level(size);
@@ -52,12 +71,15 @@ pub(crate) fn record(
             ("share", 4, u64::from(maps)),
         ],
     )?;
+    let totals = context.buffer("totals of maps", 8 * u64::from(maps))?;
     let bound = [
         ("texel", rsm.bind("position")),
         ("weight", made.bind("weight")),
         ("share", made.bind("share")),
+        ("totals", Binding::Buffer(&totals)),
+        ("reflected", Binding::Buffer(&reflected)),
     ];
-    let mut params = Params {
+    let flux = Params {
         size,
         maps,
         rsm_size,
@@ -65,16 +87,34 @@ pub(crate) fn record(
         level: 0,
         lights: plan.count,
         specular: u32::from(rsm.len("grazing") > 0),
+        count: 0,
+        kept: 0,
     };
-    for level in 0..=top {
-        params.level = level;
-        let entry = if level == 0 { "texels" } else { "above" };
+    let mut run = |entry, params: &Params, groups| {
         let kernel = context.kernel("entry/pdf", entry, &[])?;
-        let items = Groups::Items(level_count(size, maps, level) as u64);
-        recorder.dispatch(&kernel, &params, &bound, items)?;
+        recorder.dispatch(&kernel, params, &bound, groups)
+    };
+    let mut pyramid = |first, mut params: Params, last: Option<&'static str>| {
+        for level in 0..=top {
+            params.level = level;
+            let entry = if level == 0 { first } else { "above" };
+            let items = Groups::Items(level_count(size, maps, level) as u64);
+            run(entry, &params, items)?;
+        }
+        last.map_or(Ok(()), |last| run(last, &params, Groups::Count(1)))
+    };
+    let lit = Params { count: 1, ..flux };
+    // By flux whatever the density: it says where lights of a map go, not how many.
+    pyramid(FLUX, flux, Some("shares"))?;
+    match (plan.method, &plan.importance) {
+        (PdfMethod::Flux, _) => {}
+        (PdfMethod::Uniform, _) | (PdfMethod::Brsm, None) => pyramid(FLUX, lit, None)?,
+        (PdfMethod::Brsm, Some(_)) => {
+            pyramid(FLUX, lit, Some("keep"))?;
+            pyramid(MATTERS, Params { kept: 1, ..flux }, Some("keep"))?;
+            pyramid(MIXED, flux, None)?;
+        }
     }
-    let kernel = context.kernel("entry/pdf", "shares", &[])?;
-    recorder.dispatch(&kernel, &params, &bound, Groups::Count(1))?;
     Ok(made)
 }
 
@@ -95,7 +135,9 @@ mod tests {
                 texels,
                 level,
                 lights,
-                specular
+                specular,
+                count,
+                kept
             }
         );
     }

@@ -342,8 +342,19 @@ pub(crate) fn kernels(plan: &ShadePlan, clusters: bool) -> Vec<KernelId> {
     kernels
 }
 
-/// The constants of the kernels that shade by virtual lights; numbers as in `phase/reflect.wgsl`.
-fn constants(plan: &ShadePlan) -> [Constant; 10] {
+/// The constants of the kernels that shade by virtual lights.
+fn constants(plan: &ShadePlan) -> Vec<Constant> {
+    let mut constants = form_constants(plan).to_vec();
+    constants.extend([
+        ("EMITTERS", flag(plan.emitters)),
+        ("RAYS", flag(plan.occlusion == OcclusionMethod::Rays)),
+        ("MASKS", flag(plan.masks)),
+    ]);
+    constants
+}
+
+/// Those of what receivers reflect of a light; numbers as in `phase/reflect.wgsl`.
+pub(super) fn form_constants(plan: &ShadePlan) -> [Constant; 7] {
     let emission = match plan.emission {
         Emission::Cosine => 0.0,
         Emission::Sg => 1.0,
@@ -363,9 +374,6 @@ fn constants(plan: &ShadePlan) -> [Constant; 10] {
         ("GLOSSY_SENDERS", flag(plan.glossy_senders)),
         ("ANISOTROPIC_RECEIVERS", flag(plan.anisotropic_receivers)),
         ("ANISOTROPIC_SENDERS", flag(plan.anisotropic_senders)),
-        ("EMITTERS", flag(plan.emitters)),
-        ("RAYS", flag(plan.occlusion == OcclusionMethod::Rays)),
-        ("MASKS", flag(plan.masks)),
         ("EMISSION", emission),
         ("DIFFUSE", diffuse),
         ("GLOSSY", glossy),
