@@ -6,7 +6,7 @@ mod page;
 use page::{Page, Row};
 use std::process::ExitCode;
 use std::time::Duration;
-use vsgl_core::backend::{Backend, Senders, ShadeInputs};
+use vsgl_core::backend::{Backend, PdfInputs, Senders, ShadeInputs};
 use vsgl_core::data::SceneData;
 use vsgl_core::plan::Plan;
 use vsgl_core::render::{Phase, View};
@@ -116,6 +116,7 @@ fn scene(gpu: &WgpuBackend, sample: &'static str, size: Size, page: &mut Page) -
         gpu.rsm(&data, &scene.lights, &exact.rsm).map(drop)
     })?;
     let rsm = gpu.rsm(&data, &scene.lights, &exact.rsm)?;
+    let gbuffer = gpu.gbuffer(&data, &view, &partition.gbuffer)?;
     if let Some(cluster) = &exact.cluster {
         add("1024 VSGLs by partition", &[Phase::Cluster], &mut || {
             gpu.cluster(&data, &rsm, None, cluster).map(drop)
@@ -126,12 +127,17 @@ fn scene(gpu: &WgpuBackend, sample: &'static str, size: Size, page: &mut Page) -
             "1024 VSGLs by filtered kernels",
             &[Phase::Pdf, Phase::Cluster],
             &mut || {
-                let pdf = gpu.pdf(&rsm, pdf)?;
+                let inputs = PdfInputs {
+                    scene: &data,
+                    rsm: &rsm,
+                    gbuffer: &gbuffer,
+                    view: &view,
+                };
+                let pdf = gpu.pdf(&inputs, pdf)?;
                 gpu.cluster(&data, &rsm, Some(&pdf), cluster).map(drop)
             },
         )?;
     }
-    let gbuffer = gpu.gbuffer(&data, &view, &partition.gbuffer)?;
     let Some(cluster) = &exact.cluster else {
         return Ok(());
     };
