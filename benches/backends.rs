@@ -100,9 +100,16 @@ fn visibility_on<B: Backend>(c: &mut Criterion, backend: &B, name: &str) {
 }
 
 fn cluster_on<B: Backend>(c: &mut Criterion, backend: &B, name: &str) {
-    for clustering in [Clustering::Partition, Clustering::Filtered] {
+    for clustering in [
+        Clustering::Partition,
+        Clustering::Filtered,
+        Clustering::Whole,
+    ] {
         let mut group = group(c, &format!("cluster 512x512 texels, {clustering}"));
         for lights in [64, 1024] {
+            if clustering == Clustering::Whole && lights > 64 {
+                continue;
+            }
             let settings = Settings {
                 clustering,
                 lights,

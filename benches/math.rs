@@ -80,6 +80,7 @@ group! { hemispherical:
 
 group! { clamped_cosine:
     constant = |x, y| cosine::constant(x, y);
+    sg_2015 = |x, y| cosine::sg_2015(x, y);
     sg_iwasaki_2012 = |x, y| cosine::sg_iwasaki_2012(x, y);
     sg_product = |x, y| cosine::sg_product(x, y);
     lobes_2018 = |x, y| cosine::lobes_2018(x, y);

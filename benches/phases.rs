@@ -9,7 +9,9 @@ use vsgl_core::glam::Vec3;
 use vsgl_core::plan::{BouncePlan, PdfPlan, Plan, RsmPlan};
 use vsgl_core::render::{View, render};
 use vsgl_core::scene::{Light, PointLight, Scene, SceneFacts, samples};
-use vsgl_core::settings::{Clustering, OcclusionMethod, PdfMethod, Preset, Settings};
+use vsgl_core::settings::{
+    Clustering, DiffuseForm, GlossyForm, OcclusionMethod, PdfMethod, Preset, Settings,
+};
 use vsgl_cpu::CpuBackend;
 
 /// A scene with everything that its phases read, uploaded.
@@ -92,7 +94,11 @@ fn clusters(c: &mut Criterion) {
     let set = Set::new("cornell", 64, 36);
     let mut group = c.benchmark_group("cluster");
     group.sample_size(10);
-    for clustering in [Clustering::Partition, Clustering::Filtered] {
+    for clustering in [
+        Clustering::Partition,
+        Clustering::Filtered,
+        Clustering::Whole,
+    ] {
         let plan = set.plan(&Settings {
             clustering,
             ..Settings::default()
@@ -189,6 +195,30 @@ fn shading(c: &mut Criterion) {
     for (name, settings) in cases {
         shade(&mut group, &set, name, &set.plan(&settings));
     }
+    for &diffuse in DiffuseForm::ALL {
+        let settings = Settings {
+            diffuse,
+            ..unoccluded.clone()
+        };
+        shade(
+            &mut group,
+            &set,
+            &format!("diffuse {diffuse}"),
+            &set.plan(&settings),
+        );
+    }
+    for &glossy in GlossyForm::ALL {
+        let settings = Settings {
+            glossy,
+            ..unoccluded.clone()
+        };
+        shade(
+            &mut group,
+            &set,
+            &format!("glossy {glossy}"),
+            &set.plan(&settings),
+        );
+    }
     // What the plan saves where no surface is glossy, beside what it would cost.
     let mut lambert = Set::new("cornell", 160, 90);
     for material in &mut lambert.scene.materials {
@@ -210,6 +240,64 @@ fn shading(c: &mut Criterion) {
         "all Lambert, not pruned",
         &set.plan(&unoccluded),
     );
+    group.finish();
+}
+
+/// A frame of two lights at 640x360, part by part: what the published configuration takes, and the same by v13 and NDF
+/// filtering. Primary rays and the rays of direct light stand apart.
+fn two_lights(c: &mut Criterion) {
+    let set = Set::new("cornell", 640, 360);
+    let mut group = c.benchmark_group("two lights 640x360");
+    group.sample_size(10);
+    let published = Preset::Paper2015.settings();
+    let ours = Settings {
+        clustering: published.clustering,
+        rsm: published.rsm,
+        occlusion: published.occlusion,
+        ..Settings::default()
+    };
+    for (name, settings) in [("paper-2015", published), ("v13", ours)] {
+        let plan = set.plan(&settings);
+        let bounce = plan.bounce.as_ref().expect("a lit scene");
+        let cluster = bounce.cluster.as_ref().expect("method vsgl");
+        let (lights, view) = (&set.scene.lights, &set.view);
+        let maps = || set.backend.rsm(&set.data, black_box(lights), &bounce.rsm);
+        let rsm = maps().expect("cpu");
+        let whole = || {
+            set.backend
+                .cluster(&set.data, black_box(&rsm), None, cluster)
+        };
+        let vsgls = whole().expect("cpu");
+        let gbuffer = set.backend.gbuffer(&set.data, view, &plan.gbuffer);
+        let gbuffer = gbuffer.expect("cpu");
+        let shade = |lights: &[Light], senders| {
+            let inputs = ShadeInputs {
+                scene: &set.data,
+                gbuffer: &gbuffer,
+                view,
+                lights,
+                senders,
+            };
+            let made = set.backend.shade(black_box(&inputs), &plan.shade, &());
+            made.expect("cpu")
+        };
+        let radiance = shade(lights, Senders::Vsgls(&vsgls));
+        let mut part = |part: &str, run: &mut dyn FnMut()| {
+            group.bench_function(BenchmarkId::new(name, part), |b| b.iter(&mut *run));
+        };
+        part("rsm 128²", &mut || drop(black_box(maps().expect("cpu"))));
+        part("reduction", &mut || drop(black_box(whole().expect("cpu"))));
+        part("shading", &mut || {
+            drop(black_box(shade(&[], Senders::Vsgls(&vsgls))));
+        });
+        part("direct light", &mut || {
+            drop(black_box(shade(lights, Senders::None)))
+        });
+        part("resolve", &mut || {
+            let made = set.backend.resolve(&gbuffer, black_box(&radiance), view);
+            drop(black_box(made.expect("cpu")));
+        });
+    }
     group.finish();
 }
 
@@ -266,5 +354,7 @@ fn frames(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, densities, clusters, maps, shading, frames);
+criterion_group!(
+    benches, densities, clusters, maps, shading, two_lights, frames
+);
 criterion_main!(benches);

@@ -52,7 +52,7 @@ fn nonsense_in_flags_is_code_2() {
         ("--sun 0,0,0:5", &["--sun", "direction"]),
         ("--sun 0,-1,0:NaN", &["--sun", "W/m²"]),
         ("--occlusion ism", &["--occlusion", "rays"]),
-        ("--glossy asg-2013", &["glossy", "emission"]),
+        ("--glossy asg", &["--glossy", "asg-2015"]),
         ("--rsm 1000000", &["rsm", "4096"]),
         ("--kernel NaN", &["kernel"]),
         ("--kernel inf", &["kernel"]),

@@ -10,6 +10,7 @@ fn without_a_scene_it_lists_what_there_is() {
     for word in [
         "cornell",
         "paper-2016",
+        "paper-2015",
         "cpu",
         env!("CARGO_PKG_VERSION"),
         "bisections",

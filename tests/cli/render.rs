@@ -200,6 +200,8 @@ fn brute_force_and_every_choice_of_a_setting_render() {
     for flags in [
         "--method vpl",
         "--preset paper-2016",
+        "--preset paper-2015",
+        "--clustering whole --diffuse sg-product --glossy blend",
         "--clustering filtered --pdf flux --kernel 2",
         "--clustering filtered --pdf uniform",
         "--clustering filtered --pdf brsm --set camera_lights=64",

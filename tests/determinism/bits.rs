@@ -47,6 +47,8 @@ fn any_number_of_threads_and_any_run() {
         "clustering=partition occlusion=none",
         "clustering=filtered occlusion=rays",
         "clustering=filtered occlusion=none emission=sg",
+        "clustering=whole occlusion=rays",
+        "clustering=whole rsm=50 emission=sg",
         "method=vpl rsm=32 occlusion=rays",
     ] {
         for (scene, aa) in [("cornell", 1), ("many-lights:3", 2)] {

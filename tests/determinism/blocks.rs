@@ -32,7 +32,7 @@ fn same(name: &str, sums: &Sums, lane: usize, single: &Single) {
 /// The plan with one roughness everywhere, and with two.
 fn roughnesses(plan: ShadePlan) -> [ShadePlan; 2] {
     let two = ShadePlan {
-        anisotropic_receivers: true,
+        anisotropic_receivers: plan.glossy.two_roughnesses(),
         anisotropic_senders: true,
         ..plan.clone()
     };
@@ -57,6 +57,10 @@ fn clusters() {
     for &emission in Emission::ALL {
         for &diffuse in DiffuseForm::ALL {
             for &glossy in GlossyForm::ALL {
+                // The two parts do not know of each other.
+                if diffuse != DiffuseForm::V13 && glossy != GlossyForm::NdfFilter {
+                    continue;
+                }
                 for plan in roughnesses(plan(emission, diffuse, glossy)) {
                     clusters_by(&plan);
                 }

@@ -43,15 +43,17 @@ enum Forms<'a> {
 #[inline(always)]
 fn reflect(sum: &mut Single, arriving: &Incoming, receiver: &Receiver, forms: &Forms<'_>) {
     let lambert = match forms {
-        Forms::Lobe(ShadePlan {
-            diffuse: DiffuseForm::V13,
-            ..
-        }) => shade::lambert_v13(arriving, receiver),
-        Forms::Lobe(ShadePlan {
-            diffuse: DiffuseForm::Tokuyoshi2024,
-            ..
-        }) => shade::lambert_2024(arriving, receiver),
-        _ => shade::lambert_constant(arriving, receiver),
+        Forms::Lobe(plan) => match plan.diffuse {
+            DiffuseForm::V13 => shade::lambert_v13(arriving, receiver),
+            DiffuseForm::V14 => shade::lambert_v14(arriving, receiver),
+            DiffuseForm::Tokuyoshi2024 => shade::lambert_2024(arriving, receiver),
+            DiffuseForm::Tokuyoshi2022 => shade::lambert_2022(arriving, receiver),
+            DiffuseForm::MederBruederlin2018 => shade::lambert_2018(arriving, receiver),
+            DiffuseForm::Sg2015 => shade::lambert_sg_2015(arriving, receiver),
+            DiffuseForm::SgProduct => shade::lambert_sg_product(arriving, receiver),
+            DiffuseForm::Constant => shade::lambert_constant(arriving, receiver),
+        },
+        Forms::Point(_) => shade::lambert_constant(arriving, receiver),
     };
     sum.diffuse += arriving.strength * lambert;
     let specular = match forms {
@@ -61,6 +63,8 @@ fn reflect(sum: &mut Single, arriving: &Incoming, receiver: &Receiver, forms: &F
                 GlossyForm::NdfFilter => shade::anisotropic_masked(arriving, &surface),
                 GlossyForm::NdfFilter2024 => shade::anisotropic_2024(arriving, &surface),
                 GlossyForm::Asg2013 => shade::anisotropic_asg_2013(arriving, receiver),
+                GlossyForm::Asg2015 => shade::anisotropic_asg_2015(arriving, receiver),
+                form => panic!("{form} has one roughness"),
             }
         }
         Forms::Point(plan) if plan.anisotropic_receivers => {
@@ -78,18 +82,14 @@ fn reflect(sum: &mut Single, arriving: &Incoming, receiver: &Receiver, forms: &F
 fn isotropic(arriving: &Incoming, receiver: &Receiver, forms: &Forms<'_>) -> f32 {
     let surface = GlossyView::new(receiver.view, receiver.normal, receiver.alpha);
     match forms {
-        Forms::Lobe(ShadePlan {
-            glossy: GlossyForm::NdfFilter,
-            ..
-        }) => shade::glossy_masked(arriving, &surface),
-        Forms::Lobe(ShadePlan {
-            glossy: GlossyForm::NdfFilter2024,
-            ..
-        }) => shade::glossy_2024(arriving, &surface),
-        Forms::Lobe(ShadePlan {
-            glossy: GlossyForm::Asg2013,
-            ..
-        }) => shade::glossy_asg_2013(arriving, receiver),
+        Forms::Lobe(plan) => match plan.glossy {
+            GlossyForm::NdfFilter => shade::glossy_masked(arriving, &surface),
+            GlossyForm::NdfFilter2024 => shade::glossy_2024(arriving, &surface),
+            GlossyForm::Asg2013 => shade::glossy_asg_2013(arriving, receiver),
+            GlossyForm::Asg2015 => shade::glossy_asg_2015(arriving, receiver),
+            GlossyForm::Sg => shade::glossy_sg(arriving, receiver),
+            GlossyForm::Blend => shade::glossy_blended(arriving, &surface),
+        },
         Forms::Point(_) => shade::glossy_point(arriving, receiver),
     }
 }

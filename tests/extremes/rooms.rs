@@ -79,6 +79,7 @@ pub(crate) fn common() -> Vec<(String, Settings)> {
     for words in [
         "method=vpl",
         "clustering=filtered",
+        "clustering=whole",
         "clustering=filtered pdf=uniform",
         "clustering=filtered pdf=brsm camera_lights=64",
     ] {

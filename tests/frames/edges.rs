@@ -30,7 +30,7 @@ fn one_column() {
 
 #[test]
 fn one_light() {
-    for clustering in ["partition", "filtered"] {
+    for clustering in ["partition", "filtered", "whole"] {
         let shot = Shot::sample("cornell").with(&format!("lights=1 clustering={clustering}"));
         both(&format!("one light, {clustering}"), &shot);
     }
@@ -57,7 +57,7 @@ fn many_lights_with_rays() {
 #[test]
 fn maps_of_one_texel_and_of_odd_sizes() {
     for size in [1, 2, 3, 17] {
-        for clustering in ["partition", "filtered"] {
+        for clustering in ["partition", "filtered", "whole"] {
             let shot = Shot::sample("cornell").with(&format!("rsm={size} clustering={clustering}"));
             both(&format!("a map of {size} texels, {clustering}"), &shot);
         }

@@ -484,6 +484,10 @@ fn anisotropic() -> Vec<Entry> {
             anisotropic::glossy_asg(a.v(0), &frame(a, 1, 2), a.f(3), a.f(4), a.v(5), a.f(6))
         })
         .by("anisotropic_glossy_asg(x0, frame_new(x1, x2), x3, x4, x5, x6)"),
+        entry(FILE, "anisotropic_glossy_asg_2015", &one, move |a| {
+            anisotropic::glossy_asg_2015(a.v(0), &frame(a, 1, 2), a.f(3), a.f(4), a.v(5), a.f(6))
+        })
+        .by("anisotropic_glossy_asg_2015(x0, frame_new(x1, x2), x3, x4, x5, x6)"),
         entry(FILE, "anisotropic_turn_of", &[Unit, Unit], |a| {
             anisotropic::turn_of(a.v(0), a.v(1))
         })

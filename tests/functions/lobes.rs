@@ -222,6 +222,7 @@ fn cosines() -> Vec<Entry> {
     all.extend(of_lobe!(
         "sg/cosine",
         "cosine_constant" cosine::constant,
+        "cosine_sg_2015" cosine::sg_2015,
         "cosine_sg_iwasaki_2012" cosine::sg_iwasaki_2012,
         "cosine_sg_product" cosine::sg_product,
         "cosine_lobes_2018" cosine::lobes_2018,

@@ -331,11 +331,19 @@ fn reflected() -> Vec<Entry> {
     }
     let mut all = of!(
         lambert_v13,
+        lambert_v14,
         lambert_2024,
+        lambert_2022,
+        lambert_2018,
+        lambert_sg_2015,
+        lambert_sg_product,
         lambert_constant,
         glossy_asg_2013,
+        glossy_asg_2015,
+        glossy_sg,
         glossy_point,
         anisotropic_asg_2013,
+        anisotropic_asg_2015,
         anisotropic_point,
         fresnel_weight
     );
@@ -351,6 +359,13 @@ fn reflected() -> Vec<Entry> {
             shade::glossy_2024(&incoming(a), &view(a))
         })
         .by(&format!("shade_glossy_2024({VIEW})"))
+        .scale(move |a| view(a).density_2024(a.v(0), a.f(1))),
+    );
+    all.push(
+        entry(FILE, "shade_glossy_blended", &kinds, move |a| {
+            shade::glossy_blended(&incoming(a), &view(a))
+        })
+        .by(&format!("shade_glossy_blended({VIEW})"))
         .scale(move |a| view(a).density_2024(a.v(0), a.f(1))),
     );
     const TWO: &str = "Incoming(x0, x1, x2, vec3(1.0)), \
@@ -400,7 +415,14 @@ fn reflected() -> Vec<Entry> {
         .by("colors_glossy(Colors(x0, x1, x2), x3, x4)"),
     );
     let size = |e: Entry| match e.name {
-        "shade_glossy_asg_2013" | "shade_anisotropic_asg_2013" => e.floor(1e-20),
+        "shade_glossy_asg_2013" | "shade_anisotropic_asg_2013" | "shade_anisotropic_asg_2015" => {
+            e.floor(1e-20)
+        }
+        // Their terms, as of the integrals.
+        "shade_lambert_2018" => e.floor(32.0),
+        "shade_lambert_2022" => e.floor(1183.0),
+        // Exponential of a difference of logarithms that are up to 100.
+        "shade_glossy_sg" => e.floor(1e-20).within(3e-5),
         name if name.starts_with("shade_lambert") => e.floor(1.0),
         _ => e,
     };

@@ -194,12 +194,24 @@ fn densities_of_any_size() {
 }
 
 #[test]
+fn whole_maps_of_any_size() {
+    check(
+        "cornell",
+        &Shot::sample("cornell").with("clustering=whole"),
+        &[
+            "rsm=1", "rsm=2", "rsm=3", "rsm=17", "rsm=64", "rsm=128", "rsm=300", "rsm=512",
+        ],
+    );
+}
+
+#[test]
 fn built_in_scenes() {
     for name in ["glossy-floor", "columns", "caustic-ring", "roughness-row"] {
         let all = [
             "rsm=64 lights=256",
             "rsm=64 lights=256 clustering=filtered",
             "rsm=64 lights=256 clustering=filtered pdf=brsm camera_lights=300",
+            "rsm=64 clustering=whole",
         ];
         check(name, &Shot::sample(name), &all);
     }
@@ -214,6 +226,7 @@ fn several_maps_and_dark_ones() {
         "clustering=filtered",
         "clustering=filtered pdf=uniform",
         "clustering=filtered pdf=brsm camera_lights=200",
+        "clustering=whole",
     ];
     let mut shot = Shot::sample("many-lights:3").with("rsm=50");
     check("many-lights", &shot, &settings);
@@ -230,7 +243,11 @@ fn several_maps_and_dark_ones() {
 
 #[test]
 fn published_forms_and_senders_that_are_not_glossy() {
-    let both = ["clustering=partition", "clustering=filtered"];
+    let both = [
+        "clustering=partition",
+        "clustering=filtered",
+        "clustering=whole",
+    ];
     let published = Shot::sample("cornell")
         .with("emission=sg sharpness=toksvig variance=trace glossy=asg-2013");
     check("published", &published, &both);

@@ -128,7 +128,12 @@ fn dark_texels_send_nothing() {
     // All of it dark: a plan with surfaces that shine, and no light.
     scene.textures[0].texels = vec![off; 4];
     assert!(SceneData::new(&scene).emitter.is_empty());
-    for words in ["", "method=vpl rsm=8", "clustering=filtered"] {
+    for words in [
+        "",
+        "method=vpl rsm=8",
+        "clustering=filtered",
+        "clustering=whole",
+    ] {
         let image = Shot::of(scene.clone()).with(words).image();
         let emitted = image
             .direct

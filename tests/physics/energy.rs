@@ -136,6 +136,46 @@ fn a_partition_keeps_all_flux() {
 }
 
 #[test]
+fn whole_maps_keep_all_flux_and_are_a_partition_of_one() {
+    for (name, maps) in [
+        ("cornell", 1),
+        ("glossy-floor", 1),
+        ("roughness-row", 1),
+        ("many-lights:4", 4),
+    ] {
+        // Sizes that chunks divide, and do not.
+        for rsm in [1, 17, 64, 100] {
+            let by = |clustering: &str| {
+                let settings = format!("clustering={clustering} lights=1 rsm={rsm}");
+                Shot::sample(name).size(4, 4).with(&settings).frame()
+            };
+            let frame = by("whole");
+            let (map, whole) = (frame.rsm.expect("a bounce"), frame.vsgls.expect("clusters"));
+            assert!(whole.count <= maps);
+            for (texels, clusters) in fluxes(&map, &whole) {
+                assert!(
+                    (clusters - texels).abs() <= 1e-6 * texels,
+                    "{name} {rsm}: {clusters} of {texels}"
+                );
+            }
+            // The same sets summed up in another order.
+            let one = by("partition").vsgls.expect("clusters");
+            assert_eq!(whole.count, one.count, "{name} {rsm}");
+            for (a, b) in whole.diffuse.iter().zip(&one.diffuse) {
+                let scale = b.variance.sqrt() + 1e-3;
+                let apart = Vec3::from_array(a.position) - Vec3::from_array(b.position);
+                assert!(apart.length() < 1e-5 * (1.0 + scale), "{name} {rsm}");
+                assert!((a.variance - b.variance).abs() <= 1e-4 * b.variance);
+                assert!((a.complement - b.complement).abs() <= 1e-5);
+            }
+            for &texel in &whole.texel {
+                assert!(map.weight(texel as usize) > 0.0, "a target without light");
+            }
+        }
+    }
+}
+
+#[test]
 fn a_partition_has_every_lit_texel_once() {
     for lights in [1, 7, 300, 5000] {
         let shot = Shot::sample("cornell")

@@ -37,6 +37,8 @@ fn specular_columns_of_a_matte_scene_change_nothing() {
     for settings in [
         "",
         "clustering=filtered",
+        "clustering=whole",
+        "clustering=whole emission=sg diffuse=sg-2015",
         "emission=sg diffuse=constant",
         "method=vpl rsm=32",
     ] {

@@ -401,13 +401,53 @@ fn occlusion_is_said_to_be_off() {
 }
 
 #[test]
-fn settings_that_do_not_go_together_are_refused_with_a_remedy() {
-    let shot = shot("glossy=asg-2013 emission=cosine");
-    let error = Plan::new(&shot.facts(), &shot.settings)
-        .expect_err("refused")
-        .to_string();
-    for word in ["asg-2013", "emission", "sg", "paper-2016"] {
-        assert!(error.contains(word), "{error}");
+fn whole_maps_need_neither_density_nor_number() {
+    for (name, lights, maps) in [("cornell", 1, 1), ("many-lights:3", 65_536, 3)] {
+        let whole = Shot::sample(name).with(&format!("clustering=whole lights={lights}"));
+        let plan = whole.plan();
+        assert_eq!(
+            reason(&plan, "number of lights"),
+            Some((
+                false,
+                "each map is one cluster, however many lights are asked for"
+            ))
+        );
+        assert_eq!(
+            reason(&plan, "pdf"),
+            Some((false, "whole maps are not sampled"))
+        );
+        let bounce = plan.bounce.as_ref().expect("a bounce");
+        let cluster = bounce.cluster.as_ref().expect("clusters");
+        assert!(bounce.pdf.is_none() && cluster.apart);
+        assert_eq!(cluster.count, maps);
+        let frame = whole.frame();
+        let vsgls = frame.vsgls.expect("clusters");
+        assert_eq!(vsgls.count, maps);
+        assert!(vsgls.label.is_empty() && vsgls.kernel.is_empty());
+    }
+    assert_eq!(reason(&shot("").plan(), "number of lights"), None);
+}
+
+#[test]
+fn forms_of_one_roughness_read_no_second() {
+    for (form, two) in [
+        ("ndf-filter", true),
+        ("asg-2015", true),
+        ("sg", false),
+        ("blend", false),
+    ] {
+        let mut shot = shot(&format!("glossy={form}"));
+        for material in &mut shot.scene.materials {
+            material.anisotropy = 0.5;
+        }
+        let plan = shot.plan();
+        let (runs, why) = reason(&plan, "two roughnesses of the receivers").expect(form);
+        assert_eq!((runs, plan.shade.anisotropic_receivers), (two, two));
+        assert!(two || why.contains("one roughness"), "{form}: {why}");
+        assert_eq!(plan.gbuffer.surface.anisotropy, two);
+        assert!(plan.shade.anisotropic_senders, "senders are not the form's");
+        let points = shot.with("method=vpl").plan();
+        assert!(points.shade.anisotropic_receivers, "points use no form");
     }
 }
 

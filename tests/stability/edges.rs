@@ -20,8 +20,9 @@ const INTERPOLATED: [OfCosine; 3] = [
     clamped::interpolated_v13,
     clamped::interpolated_v14,
 ];
-const SUPERSEDED: [OfCosine; 5] = [
+const SUPERSEDED: [OfCosine; 6] = [
     clamped::constant,
+    clamped::sg_2015,
     clamped::sg_iwasaki_2012,
     clamped::sg_product,
     clamped::lobes_2018,

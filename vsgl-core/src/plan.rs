@@ -1,6 +1,6 @@
 //! What will run, decided once from the scene's facts and the settings, with a reason for each decision.
 
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::scene::{EMITTER_POINTS, SceneFacts, SurfaceFacts};
 use crate::settings::{
     Clustering, DiffuseForm, Emission, GlossyForm, Method, OcclusionMethod, PdfMethod, Primary,
@@ -118,7 +118,7 @@ pub struct ImportancePlan {
 /// The clusters.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ClusterPlan {
-    /// Clusters wanted; there are never more than texels with flux.
+    /// Clusters wanted; there are never more than texels with flux. Of whole maps their number.
     pub count: u32,
     /// How texels become clusters.
     pub method: Clustering,
@@ -136,6 +136,8 @@ pub struct ClusterPlan {
     pub glossy: bool,
     /// Give them two roughnesses.
     pub anisotropic: bool,
+    /// With emission `sg`: each part at its own mean position, not both at the common one.
+    pub apart: bool,
 }
 
 /// Shading.
@@ -169,7 +171,7 @@ impl Plan {
     /// Decides.
     ///
     /// # Errors
-    /// [`Error::Setting`] where settings contradict each other.
+    /// [`Error::Setting`](crate::Error::Setting) where settings contradict each other. None do as yet.
     pub fn new(facts: &SceneFacts, settings: &Settings) -> Result<Self> {
         let mut reasons = Reasons::default();
         let shines = facts.emitters > 0;
@@ -196,10 +198,8 @@ impl Plan {
                 "surfaces shine, each point of them a virtual light",
             );
         let reflected = lit && facts.reflecting_senders;
-        let rsm = lit.then(|| {
-            let maps = if reflected { facts.maps } else { 0 };
-            reasons.map_size(maps, shines, settings.rsm)
-        });
+        let maps = if reflected { facts.maps } else { 0 };
+        let rsm = lit.then(|| reasons.map_size(maps, shines, settings.rsm));
         let senders = lit
             && reasons.decide(
                 "specular lobes of the lights",
@@ -220,10 +220,16 @@ impl Plan {
         let stretched = receivers
             && reasons.decide(
                 "two roughnesses of the receivers",
-                &[(
-                    facts.seen.anisotropy,
-                    "no anisotropic surface in front of the camera",
-                )],
+                &[
+                    (
+                        facts.seen.anisotropy,
+                        "no anisotropic surface in front of the camera",
+                    ),
+                    (
+                        settings.glossy.two_roughnesses() || settings.method == Method::Vpl,
+                        "the form of the specular part knows one roughness",
+                    ),
+                ],
                 "anisotropic surfaces in front of the camera",
             );
         let stretching = senders
@@ -243,24 +249,27 @@ impl Plan {
             );
         let (mut seen, mut sent) = surfaces(facts, lit, &mut reasons);
         (seen.anisotropy, sent.anisotropy) = (stretched, stretching);
-        if settings.emission == Emission::Cosine && settings.glossy == GlossyForm::Asg2013 {
-            return Err(Error::setting(
-                "glossy",
-                "`asg-2013` needs the lobes of `emission` = `sg`",
-                "set `emission` to `sg`, or take the preset `paper-2016`",
-            ));
-        }
         let clusters = lit && settings.method == Method::Vsgl;
         if lit && !clusters {
             reasons.no("clusters", "the method `vpl` takes every texel for a light");
         }
+        let whole = settings.clustering == Clustering::Whole;
+        if clusters && whole {
+            reasons.no(
+                "number of lights",
+                "each map is one cluster, however many lights are asked for",
+            );
+        }
         let samples = clusters
             && reasons.decide(
                 "pdf",
-                &[(
-                    settings.clustering == Clustering::Filtered,
-                    "an exact partition draws no samples",
-                )],
+                &[
+                    (!whole, "whole maps are not sampled"),
+                    (
+                        settings.clustering == Clustering::Filtered,
+                        "an exact partition draws no samples",
+                    ),
+                ],
                 "cluster centres are drawn from a density",
             );
         let occluded = lit
@@ -313,7 +322,11 @@ impl Plan {
                 importance,
             }),
             cluster: clusters.then_some(ClusterPlan {
-                count: settings.lights,
+                count: if whole {
+                    maps.saturating_add(u32::from(shines))
+                } else {
+                    settings.lights
+                },
                 method: settings.clustering,
                 kernel: settings.kernel,
                 bisections: settings.bisections,
@@ -322,6 +335,7 @@ impl Plan {
                 variance: settings.variance,
                 glossy: senders,
                 anisotropic: stretching,
+                apart: whole,
             }),
         });
         let raster = reasons.decide(
@@ -372,6 +386,7 @@ impl ImportancePlan {
                 variance: forms.variance,
                 glossy: shade.glossy_receivers,
                 anisotropic: shade.anisotropic_receivers,
+                apart: false,
             },
             shade: ShadePlan {
                 emitters: false,

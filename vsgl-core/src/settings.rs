@@ -108,6 +108,9 @@ choice! {
         Partition = "partition",
         /// Modified filtered importance sampling with trilinear kernels (Tokuyoshi 2016).
         Filtered = "filtered",
+        /// One cluster for each map, all of its texels: two lights in all under one spot (Tokuyoshi 2015). No sampling, no
+        /// partition, and the number of lights is ignored.
+        Whole = "whole",
     }
 }
 choice! {
@@ -126,7 +129,8 @@ choice! {
     pub enum Emission {
         /// Clamped cosine averaged over normals, and GGX under the light's lobe: what the surface really sends.
         Cosine = "cosine",
-        /// One spherical Gaussian for each part (Tokuyoshi 2015, 2016).
+        /// One spherical Gaussian for each part (Tokuyoshi 2015, 2016). Both lie at their common mean position, as in the paper
+        /// of 2016; with the clustering `whole` each at its own, as in that of two lights.
         Sg = "sg",
     }
 }
@@ -153,8 +157,18 @@ choice! {
     pub enum DiffuseForm {
         /// Our refit of the 2024 form, error 1.2e-4 of the peak.
         V13 = "v13",
+        /// As `v13` with one term more, error 4.5e-5.
+        V14 = "v14",
         /// Tokuyoshi et al. 2024, error 1.5e-3.
         Tokuyoshi2024 = "2024",
+        /// Difference of two hemispherical integrals (Tokuyoshi 2022), error 4.2e-3.
+        Tokuyoshi2022 = "2022",
+        /// The same by the integral of Meder and Brüderlin 2018, error 1.5e-2.
+        MederBruederlin2018 = "2018",
+        /// The cosine as a spherical Gaussian, with the inner product of sharp lobes (Tokuyoshi 2015, two lights), error 0.15.
+        Sg2015 = "sg-2015",
+        /// The cosine as a spherical Gaussian, with the exact inner product, error 0.14.
+        SgProduct = "sg-product",
         /// The cosine at the lobe's axis (Tokuyoshi 2016).
         Constant = "constant",
     }
@@ -166,8 +180,15 @@ choice! {
         NdfFilter = "ndf-filter",
         /// NDF filtering as published.
         NdfFilter2024 = "ndf-filter-2024",
-        /// Anisotropic spherical Gaussian (Xu et al. 2013), as in the paper of 2016.
+        /// Anisotropic spherical Gaussian (Xu et al. 2013), the rest of the reflectance at the light's axis (Tokuyoshi 2016).
         Asg2013 = "asg-2013",
+        /// The same with the rest of the reflectance at the axis of the integrand (Tokuyoshi 2015, two lights).
+        Asg2015 = "asg-2015",
+        /// Isotropic spherical Gaussian (Wang et al. 2009; Tokuyoshi 2015, two lights, equation 2).
+        Sg = "sg",
+        /// NDF filtering with the shape of a blurred GGX, and wide lights by the albedo: closest to the exact integrals, though
+        /// not in pictures.
+        Blend = "blend",
     }
 }
 choice! {
@@ -196,6 +217,17 @@ choice! {
         Default = "default",
         /// The published configuration of Tokuyoshi 2016, for comparison; its error does not fall with more lights.
         Paper2016 = "paper-2016",
+        /// The published configuration of Tokuyoshi 2015, "Fast Indirect Illumination Using Two Virtual Spherical Gaussian
+        /// Lights": two lights for a whole map, for comparison.
+        Paper2015 = "paper-2015",
+    }
+}
+
+impl GlossyForm {
+    /// Whether the form knows surfaces with two roughnesses. The others take them for surfaces with the roughness across the
+    /// tangent.
+    pub fn two_roughnesses(self) -> bool {
+        !matches!(self, Self::Sg | Self::Blend)
     }
 }
 
@@ -211,6 +243,17 @@ impl Preset {
                 variance: Variance::Trace,
                 diffuse: DiffuseForm::Constant,
                 glossy: GlossyForm::Asg2013,
+                ..Settings::default()
+            },
+            Self::Paper2015 => Settings {
+                rsm: 128,
+                clustering: Clustering::Whole,
+                emission: Emission::Sg,
+                sharpness: SharpnessFit::Toksvig,
+                variance: Variance::Trace,
+                diffuse: DiffuseForm::Sg2015,
+                glossy: GlossyForm::Asg2015,
+                occlusion: OcclusionMethod::None,
                 ..Settings::default()
             },
         }

@@ -54,6 +54,7 @@ pub const MODULES: &[(&str, &str)] = modules![
     "entry/rsm",
     "entry/senders",
     "entry/shade",
+    "entry/whole",
     "geom/hit",
     "geom/ray",
     "geom/traverse",
@@ -156,7 +157,7 @@ fn header() -> String {
     use vsgl_core::data::{self, map_kind};
     use vsgl_core::phase::{
         cluster, direct, facing, footprint, importance, normal_map, partition, pdf, rsm, shade,
-        surface, texture,
+        surface, texture, whole,
     };
     let floats: &[(&str, f32)] = &[
         ("ALPHA_MIN", surface::ALPHA_MIN),
@@ -199,6 +200,8 @@ fn header() -> String {
         ("INTERLEAVE", importance::INTERLEAVE),
         ("PARTITION_BLOCK", partition::BLOCK as u32),
         ("PARTITION_LANES", partition::LANES as u32),
+        ("WHOLE_CHUNK", whole::CHUNK as u32),
+        ("WHOLE_LANES", whole::LANES as u32),
         ("CLUSTER_BLOCK", cluster::BLOCK as u32),
         ("CLUSTER_LANES", cluster::LANES as u32),
     ];

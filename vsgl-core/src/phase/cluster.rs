@@ -358,14 +358,18 @@ pub fn stretched(light: SpecularVsgl, rsm: &Rsm, texel: u32) -> SpecularVsgl {
     }
 }
 
-/// One spherical Gaussian for each part, both at the common mean position.
+/// One spherical Gaussian for each part, both at the common mean position, or each at its own.
 ///
-/// Source: Tokuyoshi 2016, supplement, sections A and B.
+/// Source: Tokuyoshi 2016, supplement, sections A and B; Tokuyoshi 2015, "Fast Indirect Illumination Using Two Virtual
+/// Spherical Gaussian Lights", supplement, section 2.2 (each at its own).
 fn lights_sg(sum: &Sum, map: &MapRecord, plan: &ClusterPlan) -> (DiffuseVsgl, SpecularVsgl) {
     let both = sum.diffuse.merge(sum.specular);
-    let position = both.position.mean.to_array();
-    let (variance, _) = extent_of(&both, both.facing().0, plan.variance);
-    let light = to_light(map, both.position.mean);
+    let of = |own: &Part| if plan.apart { *own } else { both };
+    let of = [of(&sum.diffuse), of(&sum.specular)];
+    let places = of.map(|part| {
+        let (variance, _) = extent_of(&part, part.facing().0, plan.variance);
+        (part.position.mean, variance)
+    });
 
     let lambert_length = match plan.sharpness {
         SharpnessFit::Banerjee => vmf::mean_banerjee_2005(cosine::COSINE_SHARPNESS).length,
@@ -374,13 +378,14 @@ fn lights_sg(sum: &Sum, map: &MapRecord, plan: &ClusterPlan) -> (DiffuseVsgl, Sp
     let (axis, mean) = sum.diffuse.facing();
     let mean = vmf::MeanLength::from_length(mean.length * lambert_length);
     let sharpness = sharpness_of(mean, plan.sharpness);
+    let (position, variance) = places[0];
     let diffuse = DiffuseVsgl {
-        position,
+        position: position.to_array(),
         variance,
         axis: axis.to_array(),
         sharpness,
         intensity: (sum.power / lobe::integral(sharpness)).to_array(),
-        light,
+        light: to_light(map, position),
         ..DiffuseVsgl::default()
     };
 
@@ -388,14 +393,15 @@ fn lights_sg(sum: &Sum, map: &MapRecord, plan: &ClusterPlan) -> (DiffuseVsgl, Sp
     let mean = vmf::MeanLength::from_length(sum.lobe.length() / weight);
     let sharpness = sharpness_of(mean, plan.sharpness);
     // The flux that the specular part reflects in the mean, spread like F0.
+    let (position, variance) = places[1];
     let specular = SpecularVsgl {
-        position,
+        position: position.to_array(),
         variance,
         mirror: normalize(sum.lobe).to_array(),
         sharpness_lobe: sharpness,
         f0: (specular_power(sum) / lobe::integral(sharpness)).to_array(),
         axis: sum.specular.facing().0.to_array(),
-        light,
+        light: to_light(map, position),
         alpha: (sum.alpha2 / weight).sqrt(),
         ..SpecularVsgl::default()
     };

@@ -22,3 +22,4 @@ pub mod rsm;
 pub mod shade;
 pub mod surface;
 pub mod texture;
+pub mod whole;

@@ -425,11 +425,51 @@ pub fn lambert_v13(incoming: &Incoming, receiver: &Receiver) -> f32 {
     mean * through(incoming, receiver)
 }
 
+/// Factor of the Lambert part by our form with one term more, see [`cosine::interpolated_v14`].
+#[inline(always)]
+pub fn lambert_v14(incoming: &Incoming, receiver: &Receiver) -> f32 {
+    let k = incoming.horizon;
+    let mean = cosine::interpolated_v14(k, incoming.axis.dot(receiver.normal)) / lobe::integral(k);
+    mean * through(incoming, receiver)
+}
+
 /// Factor of the Lambert part by the form of Tokuyoshi et al. 2024.
 #[inline(always)]
 pub fn lambert_2024(incoming: &Incoming, receiver: &Receiver) -> f32 {
     let k = incoming.horizon;
     let mean = cosine::interpolated_2024(k, incoming.axis.dot(receiver.normal)) / lobe::integral(k);
+    mean * through(incoming, receiver)
+}
+
+/// Factor of the Lambert part by two hemispherical integrals of 2022, see [`cosine::lobes_2022`].
+#[inline(always)]
+pub fn lambert_2022(incoming: &Incoming, receiver: &Receiver) -> f32 {
+    let k = incoming.horizon;
+    let mean = cosine::lobes_2022(k, incoming.axis.dot(receiver.normal)) / lobe::integral(k);
+    mean * through(incoming, receiver)
+}
+
+/// Factor of the Lambert part by two hemispherical integrals of 2018, see [`cosine::lobes_2018`].
+#[inline(always)]
+pub fn lambert_2018(incoming: &Incoming, receiver: &Receiver) -> f32 {
+    let k = incoming.horizon;
+    let mean = cosine::lobes_2018(k, incoming.axis.dot(receiver.normal)) / lobe::integral(k);
+    mean * through(incoming, receiver)
+}
+
+/// Factor of the Lambert part with the cosine as a lobe, as published in 2015, see [`cosine::sg_2015`].
+#[inline(always)]
+pub fn lambert_sg_2015(incoming: &Incoming, receiver: &Receiver) -> f32 {
+    let k = incoming.horizon;
+    let mean = cosine::sg_2015(k, incoming.axis.dot(receiver.normal)) / lobe::integral(k);
+    mean * through(incoming, receiver)
+}
+
+/// Factor of the Lambert part with the cosine as a lobe and the exact product, see [`cosine::sg_product`].
+#[inline(always)]
+pub fn lambert_sg_product(incoming: &Incoming, receiver: &Receiver) -> f32 {
+    let k = incoming.horizon;
+    let mean = cosine::sg_product(k, incoming.axis.dot(receiver.normal)) / lobe::integral(k);
     mean * through(incoming, receiver)
 }
 
@@ -449,6 +489,39 @@ pub fn glossy_masked(incoming: &Incoming, surface: &GlossyView) -> f32 {
 #[inline(always)]
 pub fn glossy_2024(incoming: &Incoming, surface: &GlossyView) -> f32 {
     surface.filtered_2024(incoming.axis, incoming.sharpness)
+}
+
+/// Factor of the specular part closest to exact integrals, see [`crate::sg::glossy_blend`].
+#[inline(always)]
+pub fn glossy_blended(incoming: &Incoming, surface: &GlossyView) -> f32 {
+    surface.blended(incoming.axis, incoming.sharpness, incoming.horizon)
+}
+
+/// Factor of the specular part by an isotropic spherical Gaussian, see [`warp::glossy_sg_2015`].
+#[inline(always)]
+pub fn glossy_sg(incoming: &Incoming, receiver: &Receiver) -> f32 {
+    let Receiver {
+        view,
+        normal,
+        alpha,
+        ..
+    } = *receiver;
+    let reflected = warp::glossy_sg_2015(view, normal, alpha, incoming.axis, incoming.sharpness);
+    reflected / lobe::integral(incoming.sharpness)
+}
+
+/// Factor of the specular part by an anisotropic spherical Gaussian, the rest of the reflectance at the axis of the
+/// integrand, see [`warp::glossy_asg_2015`].
+#[inline(always)]
+pub fn glossy_asg_2015(incoming: &Incoming, receiver: &Receiver) -> f32 {
+    let Receiver {
+        view,
+        normal,
+        alpha,
+        ..
+    } = *receiver;
+    let reflected = warp::glossy_asg_2015(view, normal, alpha, incoming.axis, incoming.sharpness);
+    reflected / lobe::integral(incoming.sharpness)
 }
 
 /// Factor of the specular part by an anisotropic spherical Gaussian.
@@ -491,6 +564,15 @@ pub fn anisotropic_asg_2013(incoming: &Incoming, receiver: &Receiver) -> f32 {
     let r = receiver;
     let (axis, sharpness) = (incoming.axis, incoming.sharpness);
     glossy_asg(r.view, &r.frame(), r.alpha, r.across, axis, sharpness) / lobe::integral(sharpness)
+}
+
+/// As [`glossy_asg_2015`] for a surface with two roughnesses.
+#[inline(always)]
+pub fn anisotropic_asg_2015(incoming: &Incoming, receiver: &Receiver) -> f32 {
+    let r = receiver;
+    let (axis, sharpness) = (incoming.axis, incoming.sharpness);
+    anisotropic::glossy_asg_2015(r.view, &r.frame(), r.alpha, r.across, axis, sharpness)
+        / lobe::integral(sharpness)
 }
 
 /// As [`glossy_point`] for a surface with two roughnesses.

@@ -224,8 +224,23 @@ fn reflect(
         Integral::Lobe(DiffuseForm::V13, _) => {
             lanes!(lambert, i => shade::lambert_v13(&arriving.lane(i), &receivers.lane(i)));
         }
+        Integral::Lobe(DiffuseForm::V14, _) => {
+            lanes!(lambert, i => shade::lambert_v14(&arriving.lane(i), &receivers.lane(i)));
+        }
         Integral::Lobe(DiffuseForm::Tokuyoshi2024, _) => {
             lanes!(lambert, i => shade::lambert_2024(&arriving.lane(i), &receivers.lane(i)));
+        }
+        Integral::Lobe(DiffuseForm::Tokuyoshi2022, _) => {
+            lanes!(lambert, i => shade::lambert_2022(&arriving.lane(i), &receivers.lane(i)));
+        }
+        Integral::Lobe(DiffuseForm::MederBruederlin2018, _) => {
+            lanes!(lambert, i => shade::lambert_2018(&arriving.lane(i), &receivers.lane(i)));
+        }
+        Integral::Lobe(DiffuseForm::Sg2015, _) => {
+            lanes!(lambert, i => shade::lambert_sg_2015(&arriving.lane(i), &receivers.lane(i)));
+        }
+        Integral::Lobe(DiffuseForm::SgProduct, _) => {
+            lanes!(lambert, i => shade::lambert_sg_product(&arriving.lane(i), &receivers.lane(i)));
         }
         Integral::Lobe(DiffuseForm::Constant, _) | Integral::Point => {
             lanes!(lambert, i => shade::lambert_constant(&arriving.lane(i), &receivers.lane(i)));
@@ -267,6 +282,15 @@ fn isotropic(arriving: &Arriving, receivers: &Receivers, integral: Integral) -> 
         Integral::Lobe(_, GlossyForm::Asg2013) => {
             lanes!(specular, i => shade::glossy_asg_2013(&arriving.lane(i), &receivers.lane(i)));
         }
+        Integral::Lobe(_, GlossyForm::Asg2015) => {
+            lanes!(specular, i => shade::glossy_asg_2015(&arriving.lane(i), &receivers.lane(i)));
+        }
+        Integral::Lobe(_, GlossyForm::Sg) => {
+            lanes!(specular, i => shade::glossy_sg(&arriving.lane(i), &receivers.lane(i)));
+        }
+        Integral::Lobe(_, GlossyForm::Blend) => {
+            lanes!(specular, i => shade::glossy_blended(&arriving.lane(i), &receivers.glossy(i)));
+        }
         Integral::Point => {
             lanes!(specular, i => shade::glossy_point(&arriving.lane(i), &receivers.lane(i)));
         }
@@ -294,6 +318,11 @@ fn anisotropic(arriving: &Arriving, receivers: &Receivers, integral: Integral) -
         Integral::Lobe(_, GlossyForm::Asg2013) => {
             lanes!(specular, i => shade::anisotropic_asg_2013(&arriving.lane(i), &receivers.lane(i)));
         }
+        Integral::Lobe(_, GlossyForm::Asg2015) => {
+            lanes!(specular, i => shade::anisotropic_asg_2015(&arriving.lane(i), &receivers.lane(i)));
+        }
+        // The plan asks no form of one roughness for two.
+        Integral::Lobe(_, GlossyForm::Sg | GlossyForm::Blend) => {}
         Integral::Point => {
             lanes!(specular, i => shade::anisotropic_point(&arriving.lane(i), &receivers.lane(i)));
         }

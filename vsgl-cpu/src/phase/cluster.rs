@@ -1,6 +1,6 @@
 //! From texels to virtual spherical Gaussian lights.
 
-use super::{filtered, partition};
+use super::{filtered, partition, whole};
 use rayon::prelude::*;
 use vsgl_core::data::{MapRecord, Pdf, Rsm, SceneData, Vsgls};
 use vsgl_core::phase::cluster::{Sum, lights, stretched, target};
@@ -24,6 +24,7 @@ pub(crate) fn run(scene: &SceneData, rsm: &Rsm, pdf: Option<&Pdf>, plan: &Cluste
                 ..gather(scene, rsm, &clusters, plan)
             }
         }
+        (Clustering::Whole, _) => gather(scene, rsm, &whole::run(rsm, plan), plan),
         _ => {
             let (clusters, label) = partition::run(rsm, plan);
             Vsgls {

@@ -12,3 +12,4 @@ pub(crate) mod pdf;
 pub(crate) mod resolve;
 pub(crate) mod rsm;
 pub(crate) mod shade;
+pub(crate) mod whole;

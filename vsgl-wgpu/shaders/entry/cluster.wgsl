@@ -6,6 +6,7 @@ override GLOSSY: bool = true;
 override ANISOTROPIC: bool = false;
 // Published forms instead of ours.
 override SG: bool = false;
+override APART: bool = false;
 override TOKSVIG: bool = false;
 override TRACE: bool = false;
 

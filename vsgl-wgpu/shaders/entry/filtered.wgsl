@@ -5,6 +5,7 @@
 override GLOSSY: bool = true;
 override ANISOTROPIC: bool = false;
 override SG: bool = false;
+override APART: bool = false;
 override TOKSVIG: bool = false;
 override TRACE: bool = false;
 

@@ -2,7 +2,7 @@
 // Clusters of virtual point lights, and the lights that stand for them. Twin of `vsgl-core/src/phase/cluster.rs`.
 //
 // Reads the columns of the RSM, one after the other, from `texel`, and `map`, which the entry binds; for targets also
-// `triangle` and `corner`. The entry declares the overrides GLOSSY, ANISOTROPIC, SG, TOKSVIG and TRACE.
+// `triangle` and `corner`. The entry declares the overrides GLOSSY, ANISOTROPIC, SG, APART, TOKSVIG and TRACE.
 
 struct Sum {
     diffuse: Part,
@@ -250,9 +250,12 @@ fn cluster_specular_cosine(sum: Sum, record: MapRecord) -> SpecularVsgl {
 
 fn cluster_lights_sg(sum: Sum, record: MapRecord) -> Lights {
     let both = part_merge(sum.diffuse, sum.specular);
-    let position = both.position.mean;
-    let variance = cluster_extent_of(both, part_facing(both).axis).variance;
-    let light = cluster_to_light(record, both.position.mean);
+    var place = both;
+    var place_specular = both;
+    if APART {
+        place = sum.diffuse;
+        place_specular = sum.specular;
+    }
 
     var lambert_length = 0.0;
     if TOKSVIG {
@@ -264,24 +267,24 @@ fn cluster_lights_sg(sum: Sum, record: MapRecord) -> Lights {
     let mean = mean_length_from_length(facing.mean.length * lambert_length);
     let sharpness = cluster_sharpness_of(mean);
     var diffuse = DiffuseVsgl();
-    diffuse.position = position;
-    diffuse.variance = variance;
+    diffuse.position = place.position.mean;
+    diffuse.variance = cluster_extent_of(place, part_facing(place).axis).variance;
     diffuse.axis = facing.axis;
     diffuse.sharpness = sharpness;
     diffuse.intensity = sum.power / lobe_integral(sharpness);
-    diffuse.light = light;
+    diffuse.light = cluster_to_light(record, diffuse.position);
 
     let weight = max(sum.specular.weight, F32_MIN_POSITIVE);
     let mean_lobe = mean_length_from_length(sqrt(dot(sum.lobe, sum.lobe)) / weight);
     let sharpness_lobe = cluster_sharpness_of(mean_lobe);
     var specular = SpecularVsgl();
-    specular.position = position;
-    specular.variance = variance;
+    specular.position = place_specular.position.mean;
+    specular.variance = cluster_extent_of(place_specular, part_facing(place_specular).axis).variance;
     specular.mirror = vec_normalize(sum.lobe);
     specular.sharpness_lobe = sharpness_lobe;
     specular.f0 = cluster_specular_power(sum) / lobe_integral(sharpness_lobe);
     specular.axis = part_facing(sum.specular).axis;
-    specular.light = light;
+    specular.light = cluster_to_light(record, specular.position);
     specular.alpha = sqrt(sum.alpha2 / weight);
     return Lights(diffuse, specular);
 }

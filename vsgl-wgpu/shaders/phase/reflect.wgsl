@@ -4,9 +4,17 @@
 // Numbers of the forms, as `passes/shade.rs` gives them.
 const EMISSION_COSINE: u32 = 0u;
 const DIFFUSE_V13: u32 = 0u;
-const DIFFUSE_2024: u32 = 1u;
+const DIFFUSE_V14: u32 = 1u;
+const DIFFUSE_2024: u32 = 2u;
+const DIFFUSE_2022: u32 = 3u;
+const DIFFUSE_2018: u32 = 4u;
+const DIFFUSE_SG_2015: u32 = 5u;
+const DIFFUSE_SG_PRODUCT: u32 = 6u;
 const GLOSSY_NDF_FILTER: u32 = 0u;
 const GLOSSY_NDF_FILTER_2024: u32 = 1u;
+const GLOSSY_ASG_2013: u32 = 2u;
+const GLOSSY_ASG_2015: u32 = 3u;
+const GLOSSY_SG: u32 = 4u;
 
 // Sums without the receiver's colours.
 struct Sums {
@@ -48,8 +56,18 @@ fn reflect_lobe(sums: Sums, incoming: Incoming, receiver: Receiver, surfaces: Su
     var lambert = 0.0;
     if DIFFUSE == DIFFUSE_V13 {
         lambert = shade_lambert_v13(incoming, receiver);
+    } else if DIFFUSE == DIFFUSE_V14 {
+        lambert = shade_lambert_v14(incoming, receiver);
     } else if DIFFUSE == DIFFUSE_2024 {
         lambert = shade_lambert_2024(incoming, receiver);
+    } else if DIFFUSE == DIFFUSE_2022 {
+        lambert = shade_lambert_2022(incoming, receiver);
+    } else if DIFFUSE == DIFFUSE_2018 {
+        lambert = shade_lambert_2018(incoming, receiver);
+    } else if DIFFUSE == DIFFUSE_SG_2015 {
+        lambert = shade_lambert_sg_2015(incoming, receiver);
+    } else if DIFFUSE == DIFFUSE_SG_PRODUCT {
+        lambert = shade_lambert_sg_product(incoming, receiver);
     } else {
         lambert = shade_lambert_constant(incoming, receiver);
     }
@@ -59,16 +77,24 @@ fn reflect_lobe(sums: Sums, incoming: Incoming, receiver: Receiver, surfaces: Su
             specular = shade_anisotropic_masked(incoming, surfaces.two);
         } else if GLOSSY == GLOSSY_NDF_FILTER_2024 {
             specular = shade_anisotropic_2024(incoming, surfaces.two);
-        } else {
+        } else if GLOSSY == GLOSSY_ASG_2013 {
             specular = shade_anisotropic_asg_2013(incoming, receiver);
+        } else if GLOSSY == GLOSSY_ASG_2015 {
+            specular = shade_anisotropic_asg_2015(incoming, receiver);
         }
     } else if GLOSSY_RECEIVERS {
         if GLOSSY == GLOSSY_NDF_FILTER {
             specular = shade_glossy_masked(incoming, surfaces.one);
         } else if GLOSSY == GLOSSY_NDF_FILTER_2024 {
             specular = shade_glossy_2024(incoming, surfaces.one);
-        } else {
+        } else if GLOSSY == GLOSSY_ASG_2013 {
             specular = shade_glossy_asg_2013(incoming, receiver);
+        } else if GLOSSY == GLOSSY_ASG_2015 {
+            specular = shade_glossy_asg_2015(incoming, receiver);
+        } else if GLOSSY == GLOSSY_SG {
+            specular = shade_glossy_sg(incoming, receiver);
+        } else {
+            specular = shade_glossy_blended(incoming, surfaces.one);
         }
     }
     return reflect_add(sums, incoming, receiver, lambert, specular);

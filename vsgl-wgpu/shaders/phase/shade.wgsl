@@ -1,4 +1,4 @@
-//! needs: math/elementary, math/vec, sg/anisotropic, sg/cosine, sg/extent, sg/glossy, sg/lobe, sg/vmf, sg/warp, brdf/fresnel, brdf/ggx, data/vsgls
+//! needs: math/elementary, math/vec, sg/anisotropic, sg/cosine, sg/extent, sg/glossy, sg/glossy_blend, sg/lobe, sg/vmf, sg/warp, brdf/fresnel, brdf/ggx, data/vsgls
 // One receiver against one virtual light. Twin of `vsgl-core/src/phase/shade.rs`.
 
 struct Incoming {
@@ -212,9 +212,39 @@ fn shade_lambert_v13(incoming: Incoming, receiver: Receiver) -> f32 {
     return mean * shade_through(incoming, receiver);
 }
 
+fn shade_lambert_v14(incoming: Incoming, receiver: Receiver) -> f32 {
+    let k = incoming.horizon;
+    let mean = cosine_interpolated_v14(k, dot(incoming.axis, receiver.normal)) / lobe_integral(k);
+    return mean * shade_through(incoming, receiver);
+}
+
 fn shade_lambert_2024(incoming: Incoming, receiver: Receiver) -> f32 {
     let k = incoming.horizon;
     let mean = cosine_interpolated_2024(k, dot(incoming.axis, receiver.normal)) / lobe_integral(k);
+    return mean * shade_through(incoming, receiver);
+}
+
+fn shade_lambert_2022(incoming: Incoming, receiver: Receiver) -> f32 {
+    let k = incoming.horizon;
+    let mean = cosine_lobes_2022(k, dot(incoming.axis, receiver.normal)) / lobe_integral(k);
+    return mean * shade_through(incoming, receiver);
+}
+
+fn shade_lambert_2018(incoming: Incoming, receiver: Receiver) -> f32 {
+    let k = incoming.horizon;
+    let mean = cosine_lobes_2018(k, dot(incoming.axis, receiver.normal)) / lobe_integral(k);
+    return mean * shade_through(incoming, receiver);
+}
+
+fn shade_lambert_sg_2015(incoming: Incoming, receiver: Receiver) -> f32 {
+    let k = incoming.horizon;
+    let mean = cosine_sg_2015(k, dot(incoming.axis, receiver.normal)) / lobe_integral(k);
+    return mean * shade_through(incoming, receiver);
+}
+
+fn shade_lambert_sg_product(incoming: Incoming, receiver: Receiver) -> f32 {
+    let k = incoming.horizon;
+    let mean = cosine_sg_product(k, dot(incoming.axis, receiver.normal)) / lobe_integral(k);
     return mean * shade_through(incoming, receiver);
 }
 
@@ -228,6 +258,24 @@ fn shade_glossy_masked(incoming: Incoming, surface: GlossyView) -> f32 {
 
 fn shade_glossy_2024(incoming: Incoming, surface: GlossyView) -> f32 {
     return glossy_view_filtered_2024(surface, incoming.axis, incoming.sharpness);
+}
+
+fn shade_glossy_blended(incoming: Incoming, surface: GlossyView) -> f32 {
+    return glossy_view_blended(surface, incoming.axis, incoming.sharpness, incoming.horizon);
+}
+
+fn shade_glossy_sg(incoming: Incoming, receiver: Receiver) -> f32 {
+    let reflected = warp_glossy_sg_2015(
+        receiver.view, receiver.normal, receiver.alpha, incoming.axis, incoming.sharpness,
+    );
+    return reflected / lobe_integral(incoming.sharpness);
+}
+
+fn shade_glossy_asg_2015(incoming: Incoming, receiver: Receiver) -> f32 {
+    let reflected = warp_glossy_asg_2015(
+        receiver.view, receiver.normal, receiver.alpha, incoming.axis, incoming.sharpness,
+    );
+    return reflected / lobe_integral(incoming.sharpness);
 }
 
 fn shade_glossy_asg_2013(incoming: Incoming, receiver: Receiver) -> f32 {
@@ -262,6 +310,13 @@ fn shade_anisotropic_asg_2013(incoming: Incoming, receiver: Receiver) -> f32 {
     let frame = receiver_frame(receiver);
     let sharpness = incoming.sharpness;
     return anisotropic_glossy_asg(receiver.view, frame, receiver.alpha, receiver.across, incoming.axis, sharpness)
+        / lobe_integral(sharpness);
+}
+
+fn shade_anisotropic_asg_2015(incoming: Incoming, receiver: Receiver) -> f32 {
+    let frame = receiver_frame(receiver);
+    let sharpness = incoming.sharpness;
+    return anisotropic_glossy_asg_2015(receiver.view, frame, receiver.alpha, receiver.across, incoming.axis, sharpness)
         / lobe_integral(sharpness);
 }
 

@@ -1,4 +1,4 @@
-//! needs: brdf/ggx_local, brdf/roughness, math/vec, sg/asg, sg/filtering, sg/warp
+//! needs: brdf/ggx_local, brdf/roughness, math/vec, sg/asg, sg/filtering, sg/lobe, sg/warp
 // Glossy reflection by a surface with two roughnesses, in world space: twin of `vsgl-core/src/sg/anisotropic.rs`.
 
 struct Frame {
@@ -50,12 +50,32 @@ fn anisotropic_glossy_asg(
     let view = frame_local(frame, eye);
     let light = frame_local(frame, axis);
     let lobe = warp_reflection_asg_local(view, along, across);
+    return asg_lobe_product_integral(lobe, light, sharpness) * anisotropic_rest(view, light, along, across);
+}
+
+fn anisotropic_glossy_asg_2015(
+    eye: vec3<f32>,
+    frame: Frame,
+    along: f32,
+    across: f32,
+    axis: vec3<f32>,
+    sharpness: f32,
+) -> f32 {
+    let view = frame_local(frame, eye);
+    let light = frame_local(frame, axis);
+    let lobe = warp_reflection_asg_local(view, along, across);
+    let own = 2.0 * (sqrt(lobe.sharpness_x) * sqrt(lobe.sharpness_y));
+    let middle = vec_normalize(light * min(sharpness, SHARPNESS_MAX) + lobe.z * own);
+    return asg_lobe_product_integral(lobe, light, sharpness) * anisotropic_rest(view, middle, along, across);
+}
+
+fn anisotropic_rest(view: vec3<f32>, light: vec3<f32>, along: f32, across: f32) -> f32 {
     let roughness = roughness_aligned(along, across);
     let v = max(view.z, 1e-6);
     let o = max(light.z, 0.0);
     let masked = ggx_local_projected_area(view, roughness) * o + ggx_local_projected_area(light, roughness) * v;
     let peak = max(along * across, 1e-12);
-    return asg_lobe_product_integral(lobe, light, sharpness) * (o / (2.0 * PI * peak * max(masked, 1e-18)));
+    return o / (2.0 * PI * peak * max(masked, 1e-18));
 }
 
 fn anisotropic_turn_of(normal: vec3<f32>, tangent: vec3<f32>) -> f32 {

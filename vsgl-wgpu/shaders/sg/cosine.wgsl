@@ -19,11 +19,14 @@ fn cosine_constant(sharpness: f32, cosine: f32) -> f32 {
     return lobe_integral(sharpness) * max(cosine, 0.0);
 }
 
-fn cosine_sg_iwasaki_2012(sharpness: f32, cosine: f32) -> f32 {
+fn cosine_sg_2015(sharpness: f32, cosine: f32) -> f32 {
     let k = min(sharpness, SHARPNESS_MAX);
     let sum = k + COSINE_SHARPNESS_2015;
-    let value = elementary_exp((cosine - 1.0) * (k / sum) * COSINE_SHARPNESS_2015) * (TAU / sum);
-    return value * (PI / lobe_integral(COSINE_SHARPNESS_2015));
+    return elementary_exp((cosine - 1.0) * (k / sum) * COSINE_SHARPNESS_2015) * (TAU / sum);
+}
+
+fn cosine_sg_iwasaki_2012(sharpness: f32, cosine: f32) -> f32 {
+    return cosine_sg_2015(sharpness, cosine) * (PI / lobe_integral(COSINE_SHARPNESS_2015));
 }
 
 fn cosine_sg_product(sharpness: f32, cosine: f32) -> f32 {

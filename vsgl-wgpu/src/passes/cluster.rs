@@ -1,6 +1,6 @@
 //! Clusters of virtual point lights, and the lights that stand for them.
 
-use super::{filtered, flag, partition};
+use super::{filtered, flag, partition, whole};
 use crate::kernel::{Constant, KernelId};
 use crate::pool::Pooled;
 use crate::recorder::{Binding, Groups, Recorder};
@@ -37,11 +37,12 @@ impl Params {
 }
 
 /// Constants of all kernels that make sums of texels, or lights of sums.
-pub(super) fn constants(plan: &ClusterPlan) -> [Constant; 5] {
+pub(super) fn constants(plan: &ClusterPlan) -> [Constant; 6] {
     [
         ("GLOSSY", flag(plan.glossy)),
         ("ANISOTROPIC", flag(plan.anisotropic)),
         ("SG", flag(plan.emission == Emission::Sg)),
+        ("APART", flag(plan.apart)),
         ("TOKSVIG", flag(plan.sharpness == SharpnessFit::Toksvig)),
         ("TRACE", flag(plan.variance == Variance::Trace)),
     ]
@@ -60,6 +61,7 @@ pub(crate) fn kernels(plan: &ClusterPlan) -> Vec<KernelId> {
     let mut kernels = match plan.method {
         Clustering::Partition => partition::kernels(plan),
         Clustering::Filtered => filtered::kernels(plan),
+        Clustering::Whole => whole::kernels(plan),
     };
     let constants = constants(plan);
     kernels.push(KernelId::new("entry/cluster", "make_lights", &constants));
@@ -92,13 +94,18 @@ pub(crate) fn record(
             ),
             ("target", size_of::<Target>() as u64, capacity),
             ("texel", 4, capacity),
-            ("label", 4, if_so(pdf.is_none(), rsm.len("position"))),
+            (
+                "label",
+                4,
+                if_so(plan.method == Clustering::Partition, rsm.len("position")),
+            ),
             ("kernel", 16, if_so(pdf.is_some(), capacity)),
         ],
     )?
     .counted(context.buffer("the number of clusters", 4)?, COUNTED);
     let drawn = match pdf {
         Some(pdf) => filtered::record(recorder, rsm, pdf, &made, plan)?,
+        None if plan.method == Clustering::Whole => whole::record(recorder, rsm, &made, plan)?,
         None => partition::record(recorder, rsm, &made, plan)?,
     };
     let kernel = context.kernel("entry/cluster", "make_lights", &constants(plan))?;

@@ -12,6 +12,7 @@ pub(crate) mod pdf;
 pub(crate) mod resolve;
 pub(crate) mod rsm;
 pub(crate) mod shade;
+mod whole;
 
 use crate::kernel::{Constant, KernelId};
 use crate::recorder::Binding;

@@ -224,7 +224,12 @@ mod tests {
     #[test]
     fn records_have_the_sizes_that_shaders_give_them() {
         let mut found = 0;
-        for file in ["entry/round", "entry/cluster", "entry/filtered"] {
+        for file in [
+            "entry/round",
+            "entry/cluster",
+            "entry/filtered",
+            "entry/whole",
+        ] {
             let module = parse_str(&link(&[file])).expect(file);
             let mut layouter = Layouter::default();
             layouter.update(module.to_ctx()).expect(file);

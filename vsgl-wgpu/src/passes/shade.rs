@@ -361,13 +361,21 @@ pub(super) fn form_constants(plan: &ShadePlan) -> [Constant; 7] {
     };
     let diffuse = match plan.diffuse {
         DiffuseForm::V13 => 0.0,
-        DiffuseForm::Tokuyoshi2024 => 1.0,
-        DiffuseForm::Constant => 2.0,
+        DiffuseForm::V14 => 1.0,
+        DiffuseForm::Tokuyoshi2024 => 2.0,
+        DiffuseForm::Tokuyoshi2022 => 3.0,
+        DiffuseForm::MederBruederlin2018 => 4.0,
+        DiffuseForm::Sg2015 => 5.0,
+        DiffuseForm::SgProduct => 6.0,
+        DiffuseForm::Constant => 7.0,
     };
     let glossy = match plan.glossy {
         GlossyForm::NdfFilter => 0.0,
         GlossyForm::NdfFilter2024 => 1.0,
         GlossyForm::Asg2013 => 2.0,
+        GlossyForm::Asg2015 => 3.0,
+        GlossyForm::Sg => 4.0,
+        GlossyForm::Blend => 5.0,
     };
     [
         ("GLOSSY_RECEIVERS", flag(plan.glossy_receivers)),

@@ -339,13 +339,14 @@ fn hemispheres(j: &mut Judge<'_>) {
             )
         })?
     });
-    let cosines: [(&str, OfCosine, f64); 8] = [
+    let cosines: [(&str, OfCosine, f64); 9] = [
         (
             "sg::cosine::interpolated_v14",
             cosine::interpolated_v14,
             4.5e-5,
         ),
         ("sg::cosine::constant", cosine::constant, 3.01),
+        ("sg::cosine::sg_2015", cosine::sg_2015, 0.155),
         (
             "sg::cosine::sg_iwasaki_2012",
             cosine::sg_iwasaki_2012,
