@@ -104,6 +104,8 @@ fn cluster_on<B: Backend>(c: &mut Criterion, backend: &B, name: &str) {
         Clustering::Partition,
         Clustering::Filtered,
         Clustering::Whole,
+        Clustering::FilteredBox,
+        Clustering::NearestWorld,
     ] {
         let mut group = group(c, &format!("cluster 512x512 texels, {clustering}"));
         for lights in [64, 1024] {

@@ -98,6 +98,9 @@ fn clusters(c: &mut Criterion) {
         Clustering::Partition,
         Clustering::Filtered,
         Clustering::Whole,
+        Clustering::FilteredBox,
+        Clustering::FilteredOriginal,
+        Clustering::NearestWorld,
     ] {
         let plan = set.plan(&Settings {
             clustering,

@@ -49,6 +49,8 @@ fn any_number_of_threads_and_any_run() {
         "clustering=filtered occlusion=none emission=sg",
         "clustering=whole occlusion=rays",
         "clustering=whole rsm=50 emission=sg",
+        "clustering=filtered-box occlusion=none",
+        "clustering=nearest-world occlusion=none",
         "method=vpl rsm=32 occlusion=rays",
     ] {
         for (scene, aa) in [("cornell", 1), ("many-lights:3", 2)] {

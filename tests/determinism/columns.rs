@@ -28,6 +28,7 @@ fn phases_by_hand_with_copies_between_make_the_same_picture() {
         "clustering=filtered",
         "clustering=filtered pdf=brsm camera_lights=64",
         "clustering=whole",
+        "clustering=nearest-world",
     ] {
         let mut shot = Shot::sample("cornell").with(settings);
         shot.view.aa = 2;

@@ -82,6 +82,9 @@ pub(crate) fn common() -> Vec<(String, Settings)> {
         "clustering=whole",
         "clustering=filtered pdf=uniform",
         "clustering=filtered pdf=brsm camera_lights=64",
+        "clustering=filtered-box",
+        "clustering=filtered-original",
+        "clustering=nearest-world",
     ] {
         all.push((words.into(), with(Settings::default(), words)));
     }

@@ -28,9 +28,18 @@ fn one_column() {
     );
 }
 
+const CLUSTERINGS: [&str; 6] = [
+    "partition",
+    "filtered",
+    "filtered-box",
+    "filtered-original",
+    "nearest-world",
+    "whole",
+];
+
 #[test]
 fn one_light() {
-    for clustering in ["partition", "filtered", "whole"] {
+    for clustering in CLUSTERINGS {
         let shot = Shot::sample("cornell").with(&format!("lights=1 clustering={clustering}"));
         both(&format!("one light, {clustering}"), &shot);
     }
@@ -57,8 +66,9 @@ fn many_lights_with_rays() {
 #[test]
 fn maps_of_one_texel_and_of_odd_sizes() {
     for size in [1, 2, 3, 17] {
-        for clustering in ["partition", "filtered", "whole"] {
-            let shot = Shot::sample("cornell").with(&format!("rsm={size} clustering={clustering}"));
+        for clustering in CLUSTERINGS {
+            let settings = format!("rsm={size} lights=32 clustering={clustering}");
+            let shot = Shot::sample("cornell").size(32, 18).with(&settings);
             both(&format!("a map of {size} texels, {clustering}"), &shot);
         }
     }
@@ -81,9 +91,15 @@ fn an_empty_scene() {
 #[test]
 fn far_away_and_of_any_size() {
     for (scale, offset) in [(1e-3f32, 0.0f32), (1e6, 0.0), (1.0, 3e4)] {
-        let shot = Shot::sample("columns").with("lights=32");
-        let shot = shot.placed(Quat::IDENTITY, scale, Vec3::splat(offset));
-        both(&format!("scaled by {scale}, moved by {offset}"), &shot);
+        for clustering in ["partition", "filtered-box", "nearest-world"] {
+            let settings = format!("lights=32 clustering={clustering}");
+            let shot = Shot::sample("columns").size(32, 18).with(&settings);
+            let shot = shot.placed(Quat::IDENTITY, scale, Vec3::splat(offset));
+            both(
+                &format!("{clustering}, scaled by {scale}, moved by {offset}"),
+                &shot,
+            );
+        }
     }
 }
 

@@ -6,6 +6,7 @@ use vsgl_core::brdf::roughness::Roughness;
 use vsgl_core::geom::Ray;
 use vsgl_core::glam::Vec3;
 use vsgl_core::math::moments::{Moments, Scatter};
+use vsgl_core::phase::nearest::Nearest;
 use vsgl_core::phase::partition::{Features, Statistics};
 use vsgl_core::phase::shade::Incoming;
 use vsgl_core::sg::asg::AsgLobe;
@@ -88,6 +89,7 @@ macro_rules! flat {
 }
 
 flat!(f32: ["r"]; x => x);
+flat!(u32: ["f32(r)"]; x => x as f32);
 flat!((f32, f32): ["r.x"], ["r.y"]; x => x.0, x.1);
 flat!((f32, f32, f32): ["r.x"], ["r.y"], ["r.z"]; x => x.0, x.1, x.2);
 flat!(Vec3: ["r.x", "r.y", "r.z"]; v => v.x, v.y, v.z);
@@ -116,6 +118,9 @@ flat!(Features: ["r.weight"], ["r.position.x", "r.position.y", "r.position.z"],
     ["r.deviation_normal.x", "r.deviation_normal.y", "r.deviation_normal.z"];
     f => f.weight, f.mean[0], f.mean[1], f.mean[2], f.mean[4], f.mean[5], f.mean[6],
     f.deviation[0], f.deviation[1], f.deviation[2], f.deviation[4], f.deviation[5], f.deviation[6]);
+flat!((u32, u32, f32): ["f32(r.column)"], ["f32(r.row)"], ["r.share"];
+    c => c.0 as f32, c.1 as f32, c.2);
+flat!(Nearest: ["f32(r.number)"], ["r.distance2"]; n => n.number as f32, n.distance2);
 flat!(Statistics: ["r.priority"], ["f32(r.axis)"], ["r.threshold"];
     s => s.priority, s.axis as f32, s.threshold);
 flat!(MeanLength: ["r.length"], ["r.complement"]; m => m.length, m.complement);

@@ -149,21 +149,41 @@ fn partition_by_any_number_from_any_size() {
     );
 }
 
+/// Clusterings that draw centres.
+const DRAWN: [&str; 4] = [
+    "clustering=filtered",
+    "clustering=filtered-box",
+    "clustering=filtered-original",
+    "clustering=nearest-world",
+];
+
 #[test]
-fn kernels_by_any_number_from_any_size() {
-    check(
-        "cornell",
-        &Shot::sample("cornell").with("clustering=filtered"),
-        &[
-            "rsm=1 lights=16",
-            "rsm=3 lights=1",
-            "rsm=3 lights=256",
-            "rsm=64 lights=1",
-            "rsm=50 lights=300 kernel=3 bisections=20",
-            "rsm=64 lights=65536",
-            "rsm=512 lights=1024",
-        ],
-    );
+fn drawn_clusters_by_any_number_from_any_size() {
+    for clustering in DRAWN {
+        check(
+            &format!("cornell, {clustering},"),
+            &Shot::sample("cornell").with(clustering),
+            &[
+                "rsm=1 lights=16",
+                "rsm=2 lights=5",
+                "rsm=3 lights=1",
+                "rsm=3 lights=256",
+                "rsm=17 lights=20",
+                "rsm=64 lights=1",
+                "rsm=50 lights=300 kernel=3 bisections=20",
+                "rsm=64 lights=30 kernel=100",
+                "rsm=64 lights=16 kernel=0.01 bisections=64",
+                "rsm=64 lights=65536",
+                "rsm=512 lights=1024",
+            ],
+        );
+    }
+}
+
+#[test]
+fn nearest_centres_of_as_many_as_there_may_be() {
+    let shot = Shot::sample("cornell").with("clustering=nearest-world");
+    check("cornell", &shot, &["rsm=512 lights=65536"]);
 }
 
 #[test]
@@ -207,13 +227,12 @@ fn whole_maps_of_any_size() {
 #[test]
 fn built_in_scenes() {
     for name in ["glossy-floor", "columns", "caustic-ring", "roughness-row"] {
-        let all = [
-            "rsm=64 lights=256",
-            "rsm=64 lights=256 clustering=filtered",
-            "rsm=64 lights=256 clustering=filtered pdf=brsm camera_lights=300",
-            "rsm=64 clustering=whole",
-        ];
-        check(name, &Shot::sample(name), &all);
+        let shot = Shot::sample(name).with("rsm=64 lights=256");
+        check(name, &shot, &["clustering=partition"]);
+        check(name, &shot, &DRAWN);
+        let seen = ["clustering=filtered pdf=brsm camera_lights=300"];
+        check(name, &shot, &seen);
+        check(name, &shot, &["clustering=whole"]);
     }
 }
 
@@ -227,6 +246,11 @@ fn several_maps_and_dark_ones() {
         "clustering=filtered pdf=uniform",
         "clustering=filtered pdf=brsm camera_lights=200",
         "clustering=whole",
+        "lights=2 clustering=filtered-box",
+        "clustering=filtered-box",
+        "clustering=filtered-original",
+        "lights=2 clustering=nearest-world",
+        "clustering=nearest-world",
     ];
     let mut shot = Shot::sample("many-lights:3").with("rsm=50");
     check("many-lights", &shot, &settings);
@@ -243,25 +267,27 @@ fn several_maps_and_dark_ones() {
 
 #[test]
 fn published_forms_and_senders_that_are_not_glossy() {
-    let both = [
+    let all = [
         "clustering=partition",
         "clustering=filtered",
+        "clustering=filtered-box",
+        "clustering=nearest-world",
         "clustering=whole",
     ];
     let published = Shot::sample("cornell")
         .with("emission=sg sharpness=toksvig variance=trace glossy=asg-2013");
-    check("published", &published, &both);
+    check("published", &published, &all);
     check(
         "emission by SG",
         &Shot::sample("cornell").with("emission=sg"),
-        &both,
+        &all,
     );
     let mut lambert = Shot::sample("cornell");
     for material in &mut lambert.scene.materials {
         (material.metallic, material.specular) = (0.0, 0.0);
     }
     assert!(!lambert.facts().glossy_senders);
-    check("Lambert alone", &lambert, &both);
+    check("Lambert alone", &lambert, &all);
 }
 
 #[test]
@@ -274,6 +300,8 @@ fn scenes_by_others() {
             "rsm=512 lights=256",
             "rsm=64 lights=1024",
             "rsm=64 lights=256 clustering=filtered",
+            "rsm=64 lights=256 clustering=filtered-box",
+            "rsm=64 lights=256 clustering=nearest-world",
         ];
         check(name, &shot(&root, name), &all);
     }

@@ -107,8 +107,11 @@ fn fluxes(map: &Rsm, lights: &Vsgls) -> Vec<(f64, f64)> {
     pairs
 }
 
+/// Clusterings that put every texel into one cluster.
+const EXACT: [&str; 2] = ["partition", "nearest-world"];
+
 #[test]
-fn a_partition_keeps_all_flux() {
+fn clusters_without_overlap_keep_all_flux() {
     for name in [
         "cornell",
         "glossy-floor",
@@ -117,18 +120,19 @@ fn a_partition_keeps_all_flux() {
         "roughness-row",
         "many-lights:4",
     ] {
-        for lights in ["1", "100", "1024"] {
+        for (clustering, lights) in EXACT.iter().flat_map(|c| [1, 3, 100, 1024].map(|n| (c, n))) {
             let frame = Shot::sample(name)
                 .size(8, 8)
-                .with("rsm=64")
-                .with(&format!("lights={lights}"))
+                .with(&format!(
+                    "rsm=64 occlusion=none clustering={clustering} lights={lights}"
+                ))
                 .frame();
             let (map, lights) = (frame.rsm.expect("a bounce"), frame.vsgls.expect("clusters"));
             for (texels, clusters) in fluxes(&map, &lights) {
                 // Every texel is added once, as a tree of at most 14 levels: 14 roundings of 6e-8.
                 assert!(
                     (clusters - texels).abs() <= 1e-6 * texels,
-                    "{name}: {clusters} of {texels}"
+                    "{name}, {clustering}: {clusters} of {texels}"
                 );
             }
         }
@@ -176,11 +180,11 @@ fn whole_maps_keep_all_flux_and_are_a_partition_of_one() {
 }
 
 #[test]
-fn a_partition_has_every_lit_texel_once() {
-    for lights in [1, 7, 300, 5000] {
-        let shot = Shot::sample("cornell")
-            .size(8, 8)
-            .with(&format!("lights={lights}"));
+fn every_lit_texel_is_in_one_cluster() {
+    for (clustering, lights) in EXACT.iter().flat_map(|c| [1, 7, 300, 5000].map(|n| (c, n))) {
+        let shot = Shot::sample("cornell").size(8, 8).with(&format!(
+            "occlusion=none clustering={clustering} lights={lights}"
+        ));
         let frame = shot.frame();
         let (map, vsgls) = (frame.rsm.expect("a bounce"), frame.vsgls.expect("clusters"));
         assert!(vsgls.count <= lights);
@@ -207,11 +211,14 @@ fn a_partition_has_every_lit_texel_once() {
 }
 
 #[test]
-fn filtered_kernels_keep_the_flux_in_the_mean() {
-    for name in ["cornell", "glossy-floor", "columns", "roughness-row"] {
-        let shot = Shot::sample(name)
-            .size(8, 8)
-            .with("rsm=128 clustering=filtered lights=512");
+fn kernels_keep_the_flux_in_the_mean() {
+    for (name, clustering) in ["cornell", "glossy-floor", "columns", "roughness-row"]
+        .iter()
+        .flat_map(|n| ["filtered", "filtered-box", "filtered-original"].map(|c| (n, c)))
+    {
+        let shot = Shot::sample(name).size(8, 8).with(&format!(
+            "rsm=128 occlusion=none clustering={clustering} lights=512"
+        ));
         let frame = shot.frame();
         let pairs = fluxes(
             &frame.rsm.expect("a bounce"),
@@ -219,10 +226,10 @@ fn filtered_kernels_keep_the_flux_in_the_mean() {
         );
         let sum = pairs.iter().fold((0.0, 0.0), |s, p| (s.0 + p.0, s.1 + p.1));
         let error = sum.1 / sum.0 - 1.0;
-        println!("{name}: {:+.2} %", 100.0 * error);
+        println!("{name}, {clustering}: {:+.2} %", 100.0 * error);
         // Kernels are drawn, and each is scaled to its share of the density, which is the luminance of both parts
         // together; single colours and parts come out right in the mean only.
-        assert!(error.abs() < 0.05, "{name}: {error}");
+        assert!(error.abs() < 0.05, "{name}, {clustering}: {error}");
     }
 }
 
@@ -239,6 +246,52 @@ fn rounds_suffice_for_as_many_clusters_as_asked_for() {
             let maps = frame.rsm.expect("maps").maps as usize;
             let asked = (lights as usize).max(maps).min(lit);
             assert_eq!(vsgls.count as usize, asked, "{name}, {lights} lights");
+        }
+    }
+}
+
+/// The texels of a cluster are nearer to its centre than to any other; the test finds the centres anew.
+#[test]
+fn texels_go_to_the_nearest_centre() {
+    use vsgl_core::phase::nearest::{centres, drawn};
+    for name in ["cornell", "columns", "many-lights:3"] {
+        let shot = Shot::sample(name)
+            .size(8, 8)
+            .with("rsm=32 occlusion=none clustering=nearest-world lights=60");
+        let frame = shot.frame();
+        let (map, pdf) = (
+            frame.rsm.expect("a bounce"),
+            frame.pdf.expect("centres are drawn"),
+        );
+        let lights = frame.vsgls.expect("clusters");
+        let mut members = vec![Vec::new(); lights.count as usize];
+        for m in 0..map.maps {
+            let count = centres(&pdf, m);
+            let all: Vec<usize> = (0..count)
+                .map(|i| {
+                    let (x, y) = drawn(&pdf, m, map.size, i, count);
+                    ((m * map.size + y) * map.size + x) as usize
+                })
+                .collect();
+            let place = |t: usize| Vec3::from_slice(&map.position[t]);
+            let per_map = (map.size * map.size) as usize;
+            for texel in m as usize * per_map..(m as usize + 1) * per_map {
+                if map.weight(texel) <= 0.0 {
+                    continue;
+                }
+                let apart = |c: &usize| (place(*c) - place(texel)).length_squared();
+                let nearest = all
+                    .iter()
+                    .min_by(|a, b| apart(a).total_cmp(&apart(b)))
+                    .expect("a lit map has a centre");
+                members[lights.label[texel] as usize].push(*nearest);
+            }
+        }
+        // Two centres may share a texel; it is the texel that tells clusters apart.
+        let mut seen = std::collections::BTreeSet::new();
+        for cluster in members {
+            assert!(cluster.iter().all(|c| *c == cluster[0]), "{name}");
+            assert!(seen.insert(cluster[0]), "{name}: one centre, two clusters");
         }
     }
 }

@@ -39,6 +39,8 @@ fn specular_columns_of_a_matte_scene_change_nothing() {
         "clustering=filtered",
         "clustering=whole",
         "clustering=whole emission=sg diffuse=sg-2015",
+        "clustering=filtered-box",
+        "clustering=nearest-world",
         "emission=sg diffuse=constant",
         "method=vpl rsm=32",
     ] {

@@ -317,13 +317,22 @@ fn a_density_only_for_samples() {
     );
     assert!(plan.bounce.expect("a bounce").pdf.is_none());
     assert!(shot("clustering=partition").frame().pdf.is_none());
-    let pdf = shot("clustering=filtered lights=77")
-        .plan()
-        .bounce
-        .expect("a bounce")
-        .pdf;
-    let pdf = pdf.expect("a density");
-    assert_eq!((pdf.count, pdf.importance), (77, None));
+    for clustering in [
+        "filtered",
+        "filtered-box",
+        "filtered-original",
+        "nearest-world",
+    ] {
+        let plan = shot(&format!("clustering={clustering} lights=77")).plan();
+        assert_eq!(
+            reason(&plan, "pdf"),
+            Some((true, "cluster centres are drawn from a density")),
+            "{clustering}"
+        );
+        let pdf = plan.bounce.expect("a bounce").pdf;
+        let pdf = pdf.expect("a density");
+        assert_eq!((pdf.count, pdf.importance), (77, None), "{clustering}");
+    }
 }
 
 #[test]
@@ -369,6 +378,35 @@ fn importance_only_for_the_density_that_asks_what_is_seen() {
     assert_eq!(made.cluster.glossy, plan.shade.glossy_receivers);
     assert_eq!(made.shade.glossy_receivers, plan.shade.glossy_senders);
     assert_eq!(made.shade.occlusion, OcclusionMethod::None);
+}
+
+#[test]
+fn kernels_have_a_size_where_there_are_kernels() {
+    for (clustering, expected) in [
+        ("partition", None),
+        (
+            "filtered",
+            Some((true, "each is as large as it must be to hold its share")),
+        ),
+        (
+            "filtered-box",
+            Some((true, "each is as large as it must be to hold its share")),
+        ),
+        (
+            "filtered-original",
+            Some((
+                false,
+                "a kernel's size follows from the density at its centre",
+            )),
+        ),
+        (
+            "nearest-world",
+            Some((false, "every texel goes to the nearest centre")),
+        ),
+    ] {
+        let plan = shot(&format!("clustering={clustering} kernel=2")).plan();
+        assert_eq!(reason(&plan, "search for kernel sizes"), expected);
+    }
 }
 
 #[test]

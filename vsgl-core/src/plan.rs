@@ -266,12 +266,28 @@ impl Plan {
                 &[
                     (!whole, "whole maps are not sampled"),
                     (
-                        settings.clustering == Clustering::Filtered,
+                        settings.clustering.draws(),
                         "an exact partition draws no samples",
                     ),
                 ],
                 "cluster centres are drawn from a density",
             );
+        if samples {
+            reasons.decide(
+                "search for kernel sizes",
+                &[
+                    (
+                        settings.clustering != Clustering::NearestWorld,
+                        "every texel goes to the nearest centre",
+                    ),
+                    (
+                        settings.clustering != Clustering::FilteredOriginal,
+                        "a kernel's size follows from the density at its centre",
+                    ),
+                ],
+                "each is as large as it must be to hold its share",
+            );
+        }
         let occluded = lit
             && reasons.decide(
                 "occlusion",

@@ -108,9 +108,30 @@ choice! {
         Partition = "partition",
         /// Modified filtered importance sampling with trilinear kernels (Tokuyoshi 2016).
         Filtered = "filtered",
+        /// The same centres with square kernels that hold just their share of the density.
+        FilteredBox = "filtered-box",
+        /// Filtered importance sampling as it was: a kernel's size from the density at its centre (Křivánek and Colbert 2008;
+        /// Tokuyoshi 2015).
+        FilteredOriginal = "filtered-original",
+        /// The same centres; every texel in the cluster of the one that is nearest in space.
+        NearestWorld = "nearest-world",
         /// One cluster for each map, all of its texels: two lights in all under one spot (Tokuyoshi 2015). No sampling, no
         /// partition, and the number of lights is ignored.
         Whole = "whole",
+    }
+}
+impl Clustering {
+    /// Whether it draws cluster centres from a density.
+    pub fn draws(self) -> bool {
+        !matches!(self, Self::Partition | Self::Whole)
+    }
+
+    /// Whether clusters are kernels, which overlap; else every texel belongs to one cluster.
+    pub fn has_kernels(self) -> bool {
+        matches!(
+            self,
+            Self::Filtered | Self::FilteredBox | Self::FilteredOriginal
+        )
     }
 }
 choice! {

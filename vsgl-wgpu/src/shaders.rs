@@ -24,6 +24,7 @@ pub const MODULES: &[(&str, &str)] = modules![
     "data/host",
     "data/index",
     "data/lights",
+    "data/nearest",
     "data/partition",
     "data/point_sender",
     "data/scan",
@@ -46,6 +47,7 @@ pub const MODULES: &[(&str, &str)] = modules![
     "entry/import_rsm",
     "entry/importance",
     "entry/leaves",
+    "entry/nearest",
     "entry/partition",
     "entry/pdf",
     "entry/raster",
@@ -54,6 +56,7 @@ pub const MODULES: &[(&str, &str)] = modules![
     "entry/rsm",
     "entry/senders",
     "entry/shade",
+    "entry/sort",
     "entry/whole",
     "geom/hit",
     "geom/ray",
@@ -70,10 +73,12 @@ pub const MODULES: &[(&str, &str)] = modules![
     "phase/emit",
     "phase/facing",
     "phase/filtered",
+    "phase/filtered_box",
     "phase/footprint",
     "phase/gbuffer",
     "phase/importance",
     "phase/mask",
+    "phase/nearest",
     "phase/normal_map",
     "phase/partition",
     "phase/pdf",
@@ -156,8 +161,8 @@ const fn words<T>() -> u32 {
 fn header() -> String {
     use vsgl_core::data::{self, map_kind};
     use vsgl_core::phase::{
-        cluster, direct, facing, footprint, importance, normal_map, partition, pdf, rsm, shade,
-        surface, texture, whole,
+        cluster, direct, facing, filtered_box, footprint, importance, nearest, normal_map,
+        partition, pdf, rsm, shade, surface, texture, whole,
     };
     let floats: &[(&str, f32)] = &[
         ("ALPHA_MIN", surface::ALPHA_MIN),
@@ -175,6 +180,9 @@ fn header() -> String {
         ("IMPORTANCE_FLOOR", importance::FLOOR),
         ("IMPORTANCE_KEPT", importance::KEPT),
         ("IMPORTANCE_MAX", importance::IMPORTANCE_MAX),
+        ("BOX_CELLS", filtered_box::CELLS),
+        ("BOX_LEAST", filtered_box::LEAST),
+        ("NEAREST_FAR", nearest::FAR),
         ("GRAZING_MIN", footprint::GRAZING_MIN),
         ("HORIZON", normal_map::HORIZON),
         ("TANGENT_MIN", normal_map::TANGENT_MIN),
@@ -202,6 +210,9 @@ fn header() -> String {
         ("PARTITION_LANES", partition::LANES as u32),
         ("WHOLE_CHUNK", whole::CHUNK as u32),
         ("WHOLE_LANES", whole::LANES as u32),
+        ("BOX_LANES", filtered_box::LANES as u32),
+        ("NEAREST_WIDTH", nearest::WIDTH as u32),
+        ("SORT_BLOCK", crate::passes::SORT_BLOCK),
         ("CLUSTER_BLOCK", cluster::BLOCK as u32),
         ("CLUSTER_LANES", cluster::LANES as u32),
     ];

@@ -131,6 +131,43 @@ pub fn kernel(
     }
 }
 
+/// The kernel around a point as it was at first: its size follows from the density at the centre alone.
+///
+/// A kernel covers the texels that would hold `overlap / count` of the map's weight if all were like its centre, at least
+/// one and at most the whole map. Its totals take the centre's weight for the mean under the kernel, so they are right in
+/// the mean only: a kernel that reaches over an edge is too heavy or too light.
+///
+/// Source: Křivánek and Colbert 2008, "Real-time Shading with Filtered Importance Sampling"; Tokuyoshi 2016, equations 1
+/// and 4, the latter for any overlap.
+pub fn original(pdf: &Pdf, map: u32, x: f32, y: f32, count: u32, overlap: f32) -> Kernel {
+    let top = top_level(pdf.size);
+    let texels = per_texel(top);
+    let inside = |c: f32| (c as u32).min(pdf.size - 1);
+    let own = pdf.at(map, 0, inside(x), inside(y));
+    // Texels like this one that together weigh as much as a light should.
+    let alike = if own > 0.0 {
+        (pdf.total(map) / (count as f32 * own)).min(texels)
+    } else {
+        0.0
+    };
+    let covered = (overlap * alike).clamp(1.0, texels);
+    let level = if covered >= texels {
+        top as f32
+    } else {
+        crate::math::elementary::log(covered) * LEVELS_PER_NEPER
+    };
+    Kernel {
+        map,
+        x,
+        y,
+        level: level.max(0.0),
+        scale: alike,
+    }
+}
+
+/// Mip levels for each factor e of the area.
+const LEVELS_PER_NEPER: f32 = 0.5 / std::f32::consts::LN_2;
+
 /// Texels of level 0 under a kernel of fractional level: `4^level`.
 fn area(level: f32) -> f32 {
     let whole = level.floor();
@@ -161,7 +198,7 @@ impl Kernel {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::phase::pdf::{level_count, top_level};
+    use crate::phase::pdf::{level_count, pyramid, top_level};
 
     /// A pyramid over constant weights.
     fn even(size: u32) -> Pdf {
@@ -194,6 +231,29 @@ mod tests {
         }
         let all = kernel(&pdf, 0, 1.0, 1.0, 1, 4.0, 12);
         assert_eq!(all.level, 6.0);
+    }
+
+    #[test]
+    fn original_kernels_take_their_centre_for_all() {
+        let pdf = even(64);
+        for count in [1, 4, 16, 100, 4096, 10_000] {
+            let k = original(&pdf, 0, 20.3, 41.9, count, 1.0);
+            let share = 4096.0 / count as f32;
+            let side = share.sqrt().max(1.0);
+            assert!((k.record()[3] / side - 1.0).abs() < 1e-3, "{count}: {k:?}");
+            assert!((k.scale / share - 1.0).abs() < 1e-6, "{count}: {k:?}");
+        }
+        // A dark texel beside bright ones: its kernel is the whole map, and no heavier than that.
+        let mut weight = vec![1.0; 64];
+        weight[9] = 1e-6;
+        let pdf = pyramid(8, weight);
+        let k = original(&pdf, 0, 1.5, 1.5, 16, 1.0);
+        assert_eq!((k.level, k.scale), (3.0, 64.0));
+        // Twice the overlap is wider, not heavier.
+        let (one, two) = [1.0, 2.0]
+            .map(|k| original(&pdf, 0, 5.5, 5.5, 16, k))
+            .into();
+        assert!(two.level > one.level + 0.49 && two.scale == one.scale);
     }
 
     #[test]

@@ -153,6 +153,27 @@ fn choose(first: f32, second: f32, u: f32) -> (bool, f32) {
     (take, rest.clamp(0.0, BELOW_ONE))
 }
 
+/// A pyramid over given weights of level 0.
+#[cfg(test)]
+pub(crate) fn pyramid(size: u32, weight: Vec<f32>) -> Pdf {
+    let mut pdf = Pdf {
+        size,
+        maps: 1,
+        weight,
+        share: vec![1],
+    };
+    for level in 0..top_level(size) {
+        for y in 0..size >> (level + 1) {
+            for x in 0..size >> (level + 1) {
+                let w = |i, j| pdf.at(0, level, 2 * x + i, 2 * y + j);
+                let sum = (w(0, 0) + w(1, 0)) + (w(0, 1) + w(1, 1));
+                pdf.weight.push(sum);
+            }
+        }
+    }
+    pdf
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -195,26 +216,6 @@ mod tests {
             assert_eq!(share.iter().sum::<u32>(), count);
             assert_eq!(share[2], 0);
         }
-    }
-
-    /// A pyramid over given weights of level 0.
-    fn pyramid(size: u32, weight: Vec<f32>) -> Pdf {
-        let mut pdf = Pdf {
-            size,
-            maps: 1,
-            weight,
-            share: vec![1],
-        };
-        for level in 0..top_level(size) {
-            for y in 0..size >> (level + 1) {
-                for x in 0..size >> (level + 1) {
-                    let w = |i, j| pdf.at(0, level, 2 * x + i, 2 * y + j);
-                    let sum = (w(0, 0) + w(1, 0)) + (w(0, 1) + w(1, 1));
-                    pdf.weight.push(sum);
-                }
-            }
-        }
-        pdf
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! From texels to virtual spherical Gaussian lights.
 
-use super::{filtered, partition, whole};
+use super::{filtered, nearest, partition, whole};
 use rayon::prelude::*;
 use vsgl_core::data::{MapRecord, Pdf, Rsm, SceneData, Vsgls};
 use vsgl_core::phase::cluster::{Sum, lights, stretched, target};
@@ -16,22 +16,25 @@ pub(crate) struct Cluster {
 }
 
 pub(crate) fn run(scene: &SceneData, rsm: &Rsm, pdf: Option<&Pdf>, plan: &ClusterPlan) -> Vsgls {
-    match (plan.method, pdf) {
-        (Clustering::Filtered, Some(pdf)) => {
+    let (clusters, label, kernel) = match pdf {
+        Some(pdf) if plan.method.has_kernels() => {
             let (clusters, kernel) = filtered::run(rsm, pdf, plan);
-            Vsgls {
-                kernel,
-                ..gather(scene, rsm, &clusters, plan)
-            }
+            (clusters, Vec::new(), kernel)
         }
-        (Clustering::Whole, _) => gather(scene, rsm, &whole::run(rsm, plan), plan),
+        Some(pdf) if plan.method == Clustering::NearestWorld => {
+            let (clusters, label) = nearest::run(rsm, pdf, plan);
+            (clusters, label, Vec::new())
+        }
+        _ if plan.method == Clustering::Whole => (whole::run(rsm, plan), Vec::new(), Vec::new()),
         _ => {
             let (clusters, label) = partition::run(rsm, plan);
-            Vsgls {
-                label,
-                ..gather(scene, rsm, &clusters, plan)
-            }
+            (clusters, label, Vec::new())
         }
+    };
+    Vsgls {
+        label,
+        kernel,
+        ..gather(scene, rsm, &clusters, plan)
     }
 }
 

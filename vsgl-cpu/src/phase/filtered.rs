@@ -1,13 +1,15 @@
-//! Clusters by modified filtered importance sampling.
+//! Clusters by filtered importance sampling: trilinear kernels, of modified and of original size, and square ones.
 
 use super::cluster::Cluster;
 use super::pdf::quad;
 use rayon::prelude::*;
 use vsgl_core::data::{Pdf, Rsm};
 use vsgl_core::phase::cluster::Sum;
-use vsgl_core::phase::filtered::{Kernel, kernel, sum};
+use vsgl_core::phase::filtered::{self, kernel, original};
+use vsgl_core::phase::filtered_box::{self, square};
 use vsgl_core::phase::pdf::{fibonacci, level_start, top_level, warp};
 use vsgl_core::plan::ClusterPlan;
+use vsgl_core::settings::Clustering;
 
 pub(crate) fn run(rsm: &Rsm, pdf: &Pdf, plan: &ClusterPlan) -> (Vec<Cluster>, Vec<[f32; 4]>) {
     let pyramid = Pyramid::new(rsm, pdf, plan);
@@ -21,8 +23,26 @@ pub(crate) fn run(rsm: &Rsm, pdf: &Pdf, plan: &ClusterPlan) -> (Vec<Cluster>, Ve
         .map(|(map, index, count)| {
             let (u, v) = fibonacci(index, count);
             let (x, y) = warp(pdf, map, u, v);
-            let kernel = kernel(pdf, map, x, y, count, plan.kernel, plan.bisections);
-            (pyramid.cluster(rsm, &kernel), kernel.record())
+            let (sum, kernel) = match plan.method {
+                Clustering::FilteredBox => {
+                    let square = square(pdf, map, x, y, count, plan.kernel, plan.bisections);
+                    let at = |level, x, y| pyramid.at(map, level, x, y);
+                    (filtered_box::sum(pdf.size, &square, at), square.record())
+                }
+                method => {
+                    let kernel = if method == Clustering::FilteredOriginal {
+                        original(pdf, map, x, y, count, plan.kernel)
+                    } else {
+                        kernel(pdf, map, x, y, count, plan.kernel, plan.bisections)
+                    };
+                    let at = |level, x, y| pyramid.at(map, level, x, y);
+                    (filtered::sum(pdf.size, &kernel, at), kernel.record())
+                }
+            };
+            // The centre itself was drawn by weight.
+            let inside = |c: f32| (c as u32).min(rsm.size - 1);
+            let texel = (map * rsm.size + inside(y)) * rsm.size + inside(x);
+            (Cluster { sum, texel }, kernel)
         })
         .collect();
     made.into_iter().unzip()
@@ -70,18 +90,9 @@ impl Pyramid {
         }
     }
 
-    fn cluster(&self, rsm: &Rsm, kernel: &Kernel) -> Cluster {
-        let at = |level: u32, x: u32, y: u32| {
-            let side = (self.size >> level) as usize;
-            let index = (kernel.map as usize * side + y as usize) * side + x as usize;
-            self.sums[level_start(self.size, self.maps, level) + index]
-        };
-        // The centre itself was drawn by weight.
-        let inside = |c: f32| (c as u32).min(rsm.size - 1);
-        let texel = (kernel.map * rsm.size + inside(kernel.y)) * rsm.size + inside(kernel.x);
-        Cluster {
-            sum: sum(self.size, kernel, at),
-            texel,
-        }
+    fn at(&self, map: u32, level: u32, x: u32, y: u32) -> Sum {
+        let side = (self.size >> level) as usize;
+        let index = (map as usize * side + y as usize) * side + x as usize;
+        self.sums[level_start(self.size, self.maps, level) + index]
     }
 }

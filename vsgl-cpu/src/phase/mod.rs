@@ -7,6 +7,7 @@ pub(crate) mod cluster;
 pub(crate) mod filtered;
 pub(crate) mod gbuffer;
 pub(crate) mod importance;
+pub(crate) mod nearest;
 pub(crate) mod partition;
 pub(crate) mod pdf;
 pub(crate) mod resolve;

@@ -46,7 +46,7 @@ pub(crate) fn run(rsm: &Rsm, plan: &ClusterPlan) -> (Vec<Cluster>, Vec<u32>) {
 }
 
 /// Sums of the sets, and the texels that stand for them.
-fn clusters(rsm: &Rsm, sets: &[&[u32]], plan: &ClusterPlan) -> Vec<Cluster> {
+pub(crate) fn clusters(rsm: &Rsm, sets: &[&[u32]], plan: &ClusterPlan) -> Vec<Cluster> {
     let blocks: Vec<&[u32]> = sets
         .iter()
         .flat_map(|set| set.chunks(cluster::BLOCK))

@@ -1,6 +1,9 @@
-//! needs: data/index, data/partition, data/scan, phase/cluster, phase/filtered
-// Clusters by modified filtered importance sampling: the pyramid of sums, the kernels, and the sums under them. Twin of
+//! needs: data/index, data/partition, data/scan, phase/cluster, phase/filtered, phase/filtered_box
+// Clusters by filtered importance sampling: the pyramid of sums, the kernels, and the sums under them. Twin of
 // `vsgl-cpu/src/phase/filtered.rs`.
+
+// Kernels of original size.
+override ORIGINAL: bool = false;
 
 override GLOSSY: bool = true;
 override ANISOTROPIC: bool = false;
@@ -39,6 +42,7 @@ struct Params {
 // Levels above the texels.
 @group(0) @binding(12) var<storage, read_write> pyramid: array<Sum>;
 @group(0) @binding(13) var<storage, read_write> sum_out: array<Sum>;
+@group(0) @binding(14) var<storage, read_write> square: array<Square>;
 
 fn density() -> Pdf {
     return Pdf(params.size, params.maps);
@@ -66,15 +70,16 @@ fn numbers(@builtin(local_invocation_index) local: u32) {
     }
 }
 
-@compute @workgroup_size(INVOCATIONS)
-fn kernels(
-    @builtin(global_invocation_id) invocation: vec3<u32>,
-    @builtin(num_workgroups) groups: vec3<u32>,
-) {
-    let j = item_index(invocation, groups);
-    if j >= clusters[0] {
-        return;
-    }
+// Where a kernel is drawn.
+struct Drawn {
+    map: u32,
+    // Kernels of its map.
+    count: u32,
+    x: f32,
+    y: f32,
+}
+
+fn drawn(j: u32) -> Drawn {
     // The last map that begins at or before this light has it.
     var low = 0u;
     var high = params.maps;
@@ -89,13 +94,105 @@ fn kernels(
     let count = share[low];
     let point = pdf_fibonacci(j - before[low], count);
     let centre = pdf_warp(density(), low, point.x, point.y);
-    let made = filtered_kernel(density(), low, centre.x, centre.y, count, params.overlap, params.bisections);
+    return Drawn(low, count, centre.x, centre.y);
+}
+
+// The texel that a kernel is drawn from.
+fn texel_of(at: Drawn) -> u32 {
+    let last = params.rsm_size - 1u;
+    let x = min(u32(at.x), last);
+    let y = min(u32(at.y), last);
+    return (at.map * params.rsm_size + y) * params.rsm_size + x;
+}
+
+@compute @workgroup_size(INVOCATIONS)
+fn kernels(
+    @builtin(global_invocation_id) invocation: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+) {
+    let j = item_index(invocation, groups);
+    if j >= clusters[0] {
+        return;
+    }
+    let at = drawn(j);
+    var made: Kernel;
+    if ORIGINAL {
+        made = filtered_original(density(), at.map, at.x, at.y, at.count, params.overlap);
+    } else {
+        made = filtered_kernel(density(), at.map, at.x, at.y, at.count, params.overlap, params.bisections);
+    }
     kernel[j] = made;
     kernel_out[j] = kernel_record(made);
-    let last = params.rsm_size - 1u;
-    let x = min(u32(centre.x), last);
-    let y = min(u32(centre.y), last);
-    drawn_out[j] = (low * params.rsm_size + y) * params.rsm_size + x;
+    drawn_out[j] = texel_of(at);
+}
+
+var<workgroup> own_drawn: Drawn;
+var<workgroup> masses: array<f32, BOX_LANES>;
+
+// What one lane of `mass` adds up.
+fn mass_of_lane(map_number: u32, cells: Cells, lane: u32) -> f32 {
+    var mass = 0.0;
+    for (var index = lane; index < cells.count; index += BOX_LANES) {
+        let cell = cells_at(cells, index);
+        mass += cell.share * pdf_at(density(), map_number, cells.level, cell.column, cell.row);
+    }
+    return mass;
+}
+
+// Weight of the texels in a square. Every invocation calls it and has the result.
+fn mass(local: u32, map_number: u32, cells: Cells) -> f32 {
+    workgroupBarrier();
+    masses[local] = mass_of_lane(map_number, cells, local);
+    workgroupBarrier();
+    for (var half = BOX_LANES / 2u; half > 0u; half /= 2u) {
+        if local < half {
+            masses[local] += masses[local + half];
+        }
+        workgroupBarrier();
+    }
+    return masses[0];
+}
+
+// A workgroup a kernel. Twin of `square` in `vsgl-core/src/phase/filtered_box.rs`.
+@compute @workgroup_size(BOX_LANES)
+fn squares(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) local: u32,
+) {
+    let j = group_index(group, groups);
+    let is_one = j < clusters[0];
+    if local == 0u && is_one {
+        own_drawn = drawn(j);
+    }
+    workgroupBarrier();
+    let at = own_drawn;
+    let total = pdf_total(density(), at.map);
+    let wanted = min(params.overlap / f32(at.count), 1.0) * total;
+    let all = f32(pdf_top_level(params.size)) + 1.0;
+    var low = BOX_LEAST;
+    var high = all;
+    for (var i = 0u; i < params.bisections; i += 1u) {
+        let middle = 0.5 * (low + high);
+        let side = filtered_box_side_of(middle);
+        let held = mass(local, at.map, cells_new(params.size, at.x, at.y, side));
+        let below = held < wanted;
+        low = select(low, middle, below);
+        high = select(middle, high, below);
+    }
+    let level = select(0.5 * (low + high), all, wanted >= total);
+    let side = filtered_box_side_of(level);
+    let held = mass(local, at.map, cells_new(params.size, at.x, at.y, side));
+    if local == 0u && is_one {
+        var scale = 0.0;
+        if held > 0.0 {
+            scale = total / (f32(at.count) * held);
+        }
+        let made = Square(at.map, at.x, at.y, side, scale);
+        square[j] = made;
+        kernel_out[j] = square_record(made);
+        drawn_out[j] = texel_of(at);
+    }
 }
 
 // The sum of one texel of a level.
@@ -161,4 +258,44 @@ fn gather(
     let low = sum_merge(sum_merge(tap[0], tap[1]), sum_merge(tap[2], tap[3]));
     let high = sum_merge(sum_merge(tap[4], tap[5]), sum_merge(tap[6], tap[7]));
     sum_out[j] = sum_merge(low, high);
+}
+
+var<workgroup> lanes: array<Sum, BOX_LANES>;
+
+// A workgroup a kernel.
+@compute @workgroup_size(BOX_LANES)
+fn gather_squares(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) local: u32,
+) {
+    let j = group_index(group, groups);
+    var used = 0u;
+    if j < clusters[0] {
+        let own = square[j];
+        let cells = cells_new(params.size, own.x, own.y, own.side);
+        used = cells.count;
+        if local < used {
+            var merged = cell_sum(own, cells, local);
+            for (var index = local + BOX_LANES; index < used; index += BOX_LANES) {
+                merged = sum_merge(merged, cell_sum(own, cells, index));
+            }
+            lanes[local] = merged;
+        }
+    }
+    workgroupBarrier();
+    for (var half = BOX_LANES / 2u; half > 0u; half /= 2u) {
+        if local < half && local + half < used {
+            lanes[local] = sum_merge(lanes[local], lanes[local + half]);
+        }
+        workgroupBarrier();
+    }
+    if local == 0u && used > 0u {
+        sum_out[j] = lanes[0];
+    }
+}
+
+fn cell_sum(own: Square, cells: Cells, index: u32) -> Sum {
+    let cell = cells_at(cells, index);
+    return sum_scaled(pyramid_at(own.map, cells.level, cell.column, cell.row), cell.share * own.scale);
 }

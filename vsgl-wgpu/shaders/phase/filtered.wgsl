@@ -108,6 +108,22 @@ fn filtered_kernel(
     return Kernel(map_number, x, y, level, scale);
 }
 
+fn filtered_original(pdf: Pdf, map_number: u32, x: f32, y: f32, count: u32, overlap: f32) -> Kernel {
+    let top = pdf_top_level(pdf.size);
+    let texels = filtered_per_texel(top);
+    let last = pdf.size - 1u;
+    let own = pdf_at(pdf, map_number, 0u, min(u32(x), last), min(u32(y), last));
+    var alike = 0.0;
+    if own > 0.0 {
+        alike = min(pdf_total(pdf, map_number) / (f32(count) * own), texels);
+    }
+    let covered = clamp(overlap * alike, 1.0, texels);
+    let level = select(elementary_log(covered) * LEVELS_PER_NEPER, f32(top), covered >= texels);
+    return Kernel(map_number, x, y, max(level, 0.0), alike);
+}
+
+const LEVELS_PER_NEPER: f32 = 0.5 / LN_2;
+
 fn filtered_area(level: f32) -> f32 {
     let whole = floor(level);
     return filtered_per_texel(u32(whole)) * filtered_four_to_the(level - whole);

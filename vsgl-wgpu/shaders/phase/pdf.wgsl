@@ -16,11 +16,6 @@ fn pdf_level_start(size: u32, maps: u32, level: u32) -> u32 {
     return start;
 }
 
-// `size` is a power of two.
-fn pdf_top_level(size: u32) -> u32 {
-    return firstLeadingBit(size);
-}
-
 // Sizes of a pyramid.
 struct Pdf {
     size: u32,

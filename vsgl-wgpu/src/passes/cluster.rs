@@ -1,6 +1,6 @@
 //! Clusters of virtual point lights, and the lights that stand for them.
 
-use super::{filtered, flag, partition, whole};
+use super::{filtered, flag, nearest, partition, whole};
 use crate::kernel::{Constant, KernelId};
 use crate::pool::Pooled;
 use crate::recorder::{Binding, Groups, Recorder};
@@ -60,7 +60,10 @@ pub(super) struct Drawn {
 pub(crate) fn kernels(plan: &ClusterPlan) -> Vec<KernelId> {
     let mut kernels = match plan.method {
         Clustering::Partition => partition::kernels(plan),
-        Clustering::Filtered => filtered::kernels(plan),
+        Clustering::Filtered | Clustering::FilteredBox | Clustering::FilteredOriginal => {
+            filtered::kernels(plan)
+        }
+        Clustering::NearestWorld => nearest::kernels(plan),
         Clustering::Whole => whole::kernels(plan),
     };
     let constants = constants(plan);
@@ -77,7 +80,9 @@ pub(crate) fn record(
     plan: &ClusterPlan,
 ) -> Result<WgpuRes<Vsgls>> {
     let context = recorder.context();
-    let pdf = pdf.filter(|_| plan.method == Clustering::Filtered);
+    let pdf = pdf.filter(|_| plan.method.draws());
+    let has_kernels = pdf.is_some() && plan.method.has_kernels();
+    let has_labels = !has_kernels && plan.method != Clustering::Whole;
     // A cluster a map at least, if it is lit.
     let most = plan.count.max(rsm.head[1]).max(1);
     let capacity = u64::from(most);
@@ -94,17 +99,14 @@ pub(crate) fn record(
             ),
             ("target", size_of::<Target>() as u64, capacity),
             ("texel", 4, capacity),
-            (
-                "label",
-                4,
-                if_so(plan.method == Clustering::Partition, rsm.len("position")),
-            ),
-            ("kernel", 16, if_so(pdf.is_some(), capacity)),
+            ("label", 4, if_so(has_labels, rsm.len("position"))),
+            ("kernel", 16, if_so(has_kernels, capacity)),
         ],
     )?
     .counted(context.buffer("the number of clusters", 4)?, COUNTED);
     let drawn = match pdf {
-        Some(pdf) => filtered::record(recorder, rsm, pdf, &made, plan)?,
+        Some(pdf) if has_kernels => filtered::record(recorder, rsm, pdf, &made, plan)?,
+        Some(pdf) => nearest::record(recorder, rsm, pdf, &made, plan)?,
         None if plan.method == Clustering::Whole => whole::record(recorder, rsm, &made, plan)?,
         None => partition::record(recorder, rsm, &made, plan)?,
     };

@@ -1,8 +1,9 @@
-//! Clusters by modified filtered importance sampling.
+//! Clusters by filtered importance sampling: trilinear kernels, of modified and of original size, and square ones.
 
 use super::cluster::{Drawn, constants};
+use super::flag;
 use super::partition::SUM;
-use crate::kernel::KernelId;
+use crate::kernel::{Constant, KernelId};
 use crate::recorder::{Binding, Groups, Recorder};
 use crate::res::WgpuRes;
 use bytemuck::{Pod, Zeroable};
@@ -10,6 +11,7 @@ use vsgl_core::Result;
 use vsgl_core::data::{Pdf, Rsm, Vsgls};
 use vsgl_core::phase::pdf::{level_count, level_start, top_level};
 use vsgl_core::plan::ClusterPlan;
+use vsgl_core::settings::Clustering;
 
 /// Twin of `Params` in `entry/filtered.wgsl`.
 #[repr(C)]
@@ -25,15 +27,34 @@ struct Params {
     bisections: u32,
 }
 
-/// Bytes of a `Kernel` as `phase/filtered.wgsl` declares it.
+/// Bytes of a `Kernel` as `phase/filtered.wgsl` declares it, and of a `Square` in `phase/filtered_box.wgsl`.
 pub(super) const KERNEL: u64 = 20;
+
+/// What finds the kernels, and what sums up the texels under them.
+fn entries(plan: &ClusterPlan) -> [&'static str; 2] {
+    if plan.method == Clustering::FilteredBox {
+        ["squares", "gather_squares"]
+    } else {
+        ["kernels", "gather"]
+    }
+}
+
+/// The constants of an entry.
+fn constants_of(plan: &ClusterPlan) -> Vec<Constant> {
+    let mut all = constants(plan).to_vec();
+    let original = plan.method == Clustering::FilteredOriginal;
+    all.push(("ORIGINAL", flag(original)));
+    all
+}
 
 /// The pipelines that a plan needs.
 pub(super) fn kernels(plan: &ClusterPlan) -> Vec<KernelId> {
-    let constants = constants(plan);
-    ["numbers", "kernels", "above", "gather"]
+    let constants = constants_of(plan);
+    ["numbers", "above"]
+        .into_iter()
+        .chain(entries(plan))
         .map(|entry| KernelId::new("entry/filtered", entry, &constants))
-        .to_vec()
+        .collect()
 }
 
 /// Records kernels and the sums under them, with the texels drawn into the lights' resource.
@@ -64,6 +85,7 @@ pub(super) fn record(
         ("before", Binding::Buffer(&before)),
         ("clusters", Binding::Buffer(made.count_buffer())),
         ("kernel", Binding::Buffer(&kernel)),
+        ("square", Binding::Buffer(&kernel)),
         ("kernel_out", made.bind("kernel")),
         ("drawn_out", made.bind("texel")),
         ("pyramid", Binding::Buffer(&pyramid)),
@@ -79,7 +101,7 @@ pub(super) fn record(
         overlap: plan.kernel,
         bisections: plan.bisections,
     };
-    let constants = constants(plan);
+    let constants = constants_of(plan);
     let mut run = |entry, params: &Params, groups| {
         let kernel = context.kernel("entry/filtered", entry, &constants)?;
         recorder.dispatch(&kernel, params, &bound, groups)
@@ -90,8 +112,14 @@ pub(super) fn record(
         run("above", &params, Groups::Items(texels))?;
     }
     run("numbers", &params, Groups::Count(1))?;
-    run("kernels", &params, Groups::Items(capacity))?;
-    run("gather", &params, Groups::Items(capacity))?;
+    let groups = if plan.method == Clustering::FilteredBox {
+        Groups::Count(capacity)
+    } else {
+        Groups::Items(capacity)
+    };
+    for entry in entries(plan) {
+        run(entry, &params, groups)?;
+    }
     Ok(Drawn { sum })
 }
 

@@ -7,12 +7,16 @@ mod filtered;
 pub(crate) mod gbuffer;
 pub(crate) mod import;
 mod importance;
+mod nearest;
 mod partition;
 pub(crate) mod pdf;
 pub(crate) mod resolve;
 pub(crate) mod rsm;
 pub(crate) mod shade;
+mod sort;
 mod whole;
+
+pub(crate) use sort::SORT_BLOCK;
 
 use crate::kernel::{Constant, KernelId};
 use crate::recorder::Binding;

@@ -16,7 +16,7 @@ use vsgl_core::plan::ClusterPlan;
 /// Twin of `Params` in `entry/partition.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
-struct Params {
+pub(super) struct Params {
     texels: u32,
     map_texels: u32,
     maps: u32,
@@ -26,11 +26,11 @@ struct Params {
 
 /// Bytes of the records that only the device writes, as `data/partition.wgsl`, `phase/partition.wgsl` and
 /// `phase/cluster.wgsl` declare them.
-const NODE: u64 = 32;
+pub(super) const NODE: u64 = 32;
 const SPLIT: u64 = 12;
-const STATE: u64 = 40;
-const CLUSTER: u64 = 12;
-const GROUPS: u64 = 12;
+pub(super) const STATE: u64 = 40;
+pub(super) const CLUSTER: u64 = 12;
+pub(super) const GROUPS: u64 = 12;
 const FEATURES: u64 = 64;
 pub(super) const SUM: u64 = 288;
 
@@ -93,7 +93,7 @@ impl Work {
     }
 }
 
-const BEFORE: [&str; 4] = ["places", "lit", "compact", "roots"];
+const LISTS: [&str; 3] = ["places", "lit", "compact"];
 const OF_ROOTS: [&str; 2] = ["features", "nodes"];
 const ROUND: [(&str, &str); 5] = [
     ("entry/best", "best"),
@@ -109,12 +109,28 @@ const LAST: [Constant; 1] = [("LAST", 1.0)];
 /// The pipelines that a plan needs.
 pub(super) fn kernels(plan: &ClusterPlan) -> Vec<KernelId> {
     let has_specular = [("GLOSSY", flag(plan.glossy))];
-    let sums = constants(plan);
-    let mut kernels = Vec::new();
-    kernels.extend(BEFORE.map(|e| KernelId::new("entry/partition", e, &has_specular)));
+    let mut kernels = kernels_of_lists(plan);
+    kernels.push(KernelId::new("entry/partition", "roots", &has_specular));
     kernels.extend(ROUND.map(|(file, e)| KernelId::new(file, e, &[])));
     kernels.push(KernelId::new("entry/best", "best", &LAST));
-    kernels.extend(AFTER.map(|e| KernelId::new("entry/leaves", e, &[])));
+    kernels.extend(kernels_of_clusters(plan));
+    kernels
+}
+
+/// Those of [`record_lists`].
+pub(super) fn kernels_of_lists(plan: &ClusterPlan) -> Vec<KernelId> {
+    let has_specular = [("GLOSSY", flag(plan.glossy))];
+    LISTS
+        .map(|e| KernelId::new("entry/partition", e, &has_specular))
+        .to_vec()
+}
+
+/// Those of [`record_clusters`].
+pub(super) fn kernels_of_clusters(plan: &ClusterPlan) -> Vec<KernelId> {
+    let sums = constants(plan);
+    let mut kernels: Vec<_> = AFTER
+        .map(|e| KernelId::new("entry/leaves", e, &[]))
+        .to_vec();
     kernels.extend(SUMS.map(|e| KernelId::new("entry/cluster", e, &sums)));
     kernels
 }
@@ -127,7 +143,7 @@ pub(super) fn record(
     plan: &ClusterPlan,
 ) -> Result<Drawn> {
     let context = recorder.context();
-    let [size, maps] = rsm.head[..] else {
+    let [_, maps] = rsm.head[..] else {
         return Err(context.error("an RSM without its size", "report it"));
     };
     let texels = rsm.len("position");
@@ -135,13 +151,6 @@ pub(super) fn record(
     let most = partition::nodes(plan.count, maps);
     let work = Work::new(context, texels, capacity, u64::from(most))?;
     let sum = context.buffer("sums of clusters", SUM * capacity)?;
-    let params = Params {
-        texels: texels as u32,
-        map_texels: size * size,
-        maps,
-        clusters: plan.count,
-        most,
-    };
     let mut bound = work.bound();
     bound.extend([
         ("texel", rsm.bind("position")),
@@ -150,12 +159,11 @@ pub(super) fn record(
         // An indirect dispatch may not bind what it reads its size from for writing: the table of blocks has its own.
         ("block_groups", Binding::Buffer(&work.slot_groups)),
     ]);
-    let (one, blocks) = (Groups::Count(1), Groups::Count(texels.div_ceil(256)));
+    let one = Groups::Count(1);
+    let params = record_lists(recorder, rsm, plan, &bound)?;
     let has_specular = [("GLOSSY", flag(rsm.len("grazing") > 0))];
-    for (entry, groups) in BEFORE.into_iter().zip([blocks, one, blocks, one]) {
-        let kernel = context.kernel("entry/partition", entry, &has_specular)?;
-        recorder.dispatch(&kernel, &params, &bound, groups)?;
-    }
+    let roots = context.kernel("entry/partition", "roots", &has_specular)?;
+    recorder.dispatch(&roots, &params, &bound, one)?;
 
     let slots = Groups::Indirect(&work.slot_groups, 0);
     let children = Groups::Indirect(&work.child_groups, 0);
@@ -175,13 +183,7 @@ pub(super) fn record(
 
     let last = context.kernel("entry/best", "best", &LAST)?;
     recorder.dispatch(&last, &(), &bound, one)?;
-    for (entry, groups) in AFTER.into_iter().zip([blocks, one, blocks, one]) {
-        let kernel = context.kernel("entry/leaves", entry, &[])?;
-        recorder.dispatch(&kernel, &(), &bound, groups)?;
-    }
-
-    let params = super::cluster::Params::new(rsm, made, plan);
-    let mut sums = bound.clone();
+    let mut sums = bound;
     sums.extend([
         ("map", rsm.bind("map")),
         ("block", Binding::Buffer(&work.block)),
@@ -189,12 +191,65 @@ pub(super) fn record(
         ("sum_out", Binding::Buffer(&sum)),
         ("drawn_out", made.bind("texel")),
     ]);
-    let constants = constants(plan);
-    for (entry, groups) in SUMS.into_iter().zip([slots, Groups::Count(capacity)]) {
-        let kernel = context.kernel("entry/cluster", entry, &constants)?;
-        recorder.dispatch(&kernel, &params, &sums, groups)?;
-    }
+    record_clusters(recorder, rsm, made, plan, &sums, &work.slot_groups)?;
     Ok(Drawn { sum })
+}
+
+/// Records positions and weights, and the list of lit texels.
+pub(super) fn record_lists(
+    recorder: &mut Recorder<'_>,
+    rsm: &WgpuRes<Rsm>,
+    plan: &ClusterPlan,
+    bound: &[(&str, Binding<'_>)],
+) -> Result<Params> {
+    let context = recorder.context();
+    let [size, maps] = rsm.head[..] else {
+        return Err(context.error("an RSM without its size", "report it"));
+    };
+    let texels = rsm.len("position");
+    let params = Params {
+        texels: texels as u32,
+        map_texels: size * size,
+        maps,
+        clusters: plan.count,
+        most: partition::nodes(plan.count, maps),
+    };
+    let has_specular = [("GLOSSY", flag(rsm.len("grazing") > 0))];
+    let blocks = Groups::Count(texels.div_ceil(256));
+    for (entry, groups) in LISTS.into_iter().zip([blocks, Groups::Count(1), blocks]) {
+        let kernel = context.kernel("entry/partition", entry, &has_specular)?;
+        recorder.dispatch(&kernel, &params, bound, groups)?;
+    }
+    Ok(params)
+}
+
+/// Records clusters from marks in the list, and their sums; `block_groups` is where their number of blocks is written.
+pub(super) fn record_clusters(
+    recorder: &mut Recorder<'_>,
+    rsm: &WgpuRes<Rsm>,
+    made: &WgpuRes<Vsgls>,
+    plan: &ClusterPlan,
+    bound: &[(&str, Binding<'_>)],
+    block_groups: &Pooled,
+) -> Result<()> {
+    let context = recorder.context();
+    let (one, blocks) = (
+        Groups::Count(1),
+        Groups::Count(rsm.len("position").div_ceil(256)),
+    );
+    for (entry, groups) in AFTER.into_iter().zip([blocks, one, blocks, one]) {
+        let kernel = context.kernel("entry/leaves", entry, &[])?;
+        recorder.dispatch(&kernel, &(), bound, groups)?;
+    }
+    let params = super::cluster::Params::new(rsm, made, plan);
+    let constants = constants(plan);
+    let clusters = Groups::Count(made.len("texel"));
+    let groups = [Groups::Indirect(block_groups, 0), clusters];
+    for (entry, groups) in SUMS.into_iter().zip(groups) {
+        let kernel = context.kernel("entry/cluster", entry, &constants)?;
+        recorder.dispatch(&kernel, &params, bound, groups)?;
+    }
+    Ok(())
 }
 
 #[cfg(test)]
@@ -229,6 +284,7 @@ mod tests {
             "entry/cluster",
             "entry/filtered",
             "entry/whole",
+            "entry/nearest",
         ] {
             let module = parse_str(&link(&[file])).expect(file);
             let mut layouter = Layouter::default();
@@ -242,7 +298,9 @@ mod tests {
                     Some("Groups") => GROUPS,
                     Some("Features") => FEATURES,
                     Some("Sum") => SUM,
-                    Some("Kernel") => super::super::filtered::KERNEL,
+                    Some("Kernel" | "Square") => super::super::filtered::KERNEL,
+                    Some("Centre") => super::super::nearest::CENTRE,
+                    Some("Bounds") => super::super::nearest::BOUNDS,
                     _ => continue,
                 };
                 assert_eq!(
@@ -254,6 +312,6 @@ mod tests {
                 found += 1;
             }
         }
-        assert!(found >= 8, "{found} records");
+        assert!(found >= 11, "{found} records");
     }
 }
