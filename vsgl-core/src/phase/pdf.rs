@@ -101,10 +101,13 @@ pub const GOLDEN_TURN: u32 = 2_654_435_769;
 
 /// Point `index` of `count` of a Fibonacci lattice on the unit square.
 ///
-/// The second coordinate is a multiple of the golden ratio in 32-bit integers, exact on every backend.
+/// The second coordinate is a multiple of the golden ratio in 32-bit integers, exact on every backend. It begins half a step
+/// in: a point at 0 would fall on the first texel with any weight, however little that is, for every density.
 /// Source: Tokuyoshi 2016, "Modified Filtered Importance Sampling for Virtual Spherical Gaussian Lights", section 5.
 pub fn fibonacci(index: u32, count: u32) -> (f32, f32) {
-    let turn = index.wrapping_mul(GOLDEN_TURN);
+    let turn = index
+        .wrapping_mul(GOLDEN_TURN)
+        .wrapping_add(GOLDEN_TURN / 2);
     ((index as f32 + 0.5) / count as f32, unit(turn))
 }
 

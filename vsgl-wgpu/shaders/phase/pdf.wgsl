@@ -32,7 +32,7 @@ fn pdf_total(own: Pdf, map_number: u32) -> f32 {
 }
 
 fn pdf_fibonacci(index: u32, count: u32) -> vec2<f32> {
-    return vec2((f32(index) + 0.5) / f32(count), pdf_unit(index * GOLDEN_TURN));
+    return vec2((f32(index) + 0.5) / f32(count), pdf_unit(index * GOLDEN_TURN + GOLDEN_TURN / 2u));
 }
 
 fn pdf_warp(own: Pdf, map_number: u32, u: f32, v: f32) -> vec2<f32> {
