@@ -213,7 +213,7 @@ fn every_function_has_a_twin_and_a_test() {
 
 /// Plain functions of whole records, such as a map, a camera or the sums of a cluster, and of indices: every pixel, cluster
 /// and round of the phases compares them.
-const COMPARED_AS_PHASES: [&str; 22] = [
+const COMPARED_AS_PHASES: [&str; 23] = [
     "cluster_lights",
     "cluster_stretched",
     "camera_map_sample",
@@ -232,6 +232,7 @@ const COMPARED_AS_PHASES: [&str; 22] = [
     "pdf_level_start",
     "pdf_top_level",
     "rsm_ray",
+    "square_record",
     "sum_merge",
     "sum_scaled",
     "sum_weight",

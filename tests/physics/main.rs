@@ -1,5 +1,6 @@
 //! What no renderer may break: energy is kept, and the limit of many lights is the exact sum.
 
+mod coherence;
 mod convergence;
 mod density;
 mod emission;
