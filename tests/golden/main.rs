@@ -122,6 +122,13 @@ fn roughness_row_as_published() {
     golden("roughness-row-2016", shot.with("rsm=128 lights=256"));
 }
 
+#[test]
+fn two_lights_as_published() {
+    let mut shot = Shot::sample("cornell");
+    shot.settings = Preset::Paper2015.settings();
+    golden("cornell-2015", shot);
+}
+
 /// The comparison must find what it is there for.
 #[test]
 fn planted_faults_are_found() {

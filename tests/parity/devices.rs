@@ -23,6 +23,7 @@ fn a_steady_frame_makes_no_buffer_and_the_same_picture() {
     for settings in [
         "lights=16",
         "lights=16 clustering=filtered",
+        "clustering=whole",
         "method=vpl rsm=4",
     ] {
         let shot = Shot::sample("cornell").with(settings);

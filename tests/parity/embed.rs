@@ -91,6 +91,7 @@ fn the_light_is_that_of_the_backend() {
         "occlusion=none method=vpl",
         "occlusion=none",
         "occlusion=none clustering=filtered",
+        "occlusion=none clustering=whole",
         "occlusion=rays",
     ] {
         let plan = plan(words);

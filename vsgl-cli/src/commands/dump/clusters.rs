@@ -8,7 +8,8 @@ use vsgl_core::data::Vsgls;
 const DARK: [u8; 3] = [0; 3];
 const WHITE: [u8; 3] = [0xff; 3];
 
-/// A partition as areas of one colour with borders and their representative texels, filtered kernels as squares.
+/// A partition as areas of one colour with borders and their representative texels, filtered kernels as squares, whole maps by
+/// their representative texels alone.
 pub(super) fn draw(map: &Map<'_>, vsgls: &Vsgls) -> Canvas {
     if map.labels.is_empty() {
         kernels(map, vsgls)
@@ -39,6 +40,12 @@ fn partition(map: &Map<'_>, vsgls: &Vsgls) -> Canvas {
             }
         }
     }
+    dots(&mut canvas, map, vsgls);
+    canvas
+}
+
+/// The texels that stand for the clusters of a map.
+fn dots(canvas: &mut Canvas, map: &Map<'_>, vsgls: &Vsgls) {
     let texels = map.size * map.size;
     for &texel in &vsgls.texel {
         if let Some(i) = (texel as usize)
@@ -46,10 +53,9 @@ fn partition(map: &Map<'_>, vsgls: &Vsgls) -> Canvas {
             .filter(|i| *i < texels)
         {
             let place = |v: usize| v * map.zoom + map.zoom / 2;
-            dot(&mut canvas, place(i % map.size), place(i / map.size), WHITE);
+            dot(canvas, place(i % map.size), place(i / map.size), WHITE);
         }
     }
-    canvas
 }
 
 fn kernels(map: &Map<'_>, vsgls: &Vsgls) -> Canvas {
@@ -63,6 +69,9 @@ fn kernels(map: &Map<'_>, vsgls: &Vsgls) -> Canvas {
         let zoom = map.zoom as f32;
         square(&mut canvas, [x * zoom, y * zoom], 0.5 * side * zoom, color);
         dot(&mut canvas, (x * zoom) as usize, (y * zoom) as usize, color);
+    }
+    if vsgls.kernel.is_empty() {
+        dots(&mut canvas, map, vsgls);
     }
     canvas
 }
