@@ -30,6 +30,8 @@ pub(crate) fn plan(emission: Emission, diffuse: DiffuseForm, glossy: GlossyForm)
         diffuse,
         glossy,
         occlusion: OcclusionMethod::None,
+        rays: 8,
+        interleave: 1,
         masks: false,
     }
 }

@@ -3,6 +3,7 @@
 //! In strict mode every bit agrees on software drivers. The ordinary path is what users run.
 
 mod edges;
+mod shares;
 
 use std::path::{Path, PathBuf};
 use vsgl_core::data::SceneData;

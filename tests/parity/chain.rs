@@ -5,7 +5,7 @@ use vsgl_core::Result;
 use vsgl_core::backend::{Backend, PdfInputs, Senders, ShadeInputs};
 use vsgl_core::data::{Columns, GBuffer, Image, Pdf, Radiance, Rsm, SceneData, Vsgls};
 use vsgl_core::parity::{Origin, Party, Stage, Step, Subject, Tolerance, chain};
-use vsgl_core::plan::{ClusterPlan, GBufferPlan, PdfPlan, RsmPlan, ShadePlan};
+use vsgl_core::plan::{ClusterPlan, GBufferPlan, PdfPlan, ReconstructPlan, RsmPlan, ShadePlan};
 use vsgl_core::render::{Observer, Phase, View};
 use vsgl_core::scene::Light;
 use vsgl_cpu::CpuBackend;
@@ -114,6 +114,22 @@ impl Backend for Faulty {
         let sound = self.cpu.shade(&inputs, plan, observer);
         let spoil = |r: &mut Radiance| r.direct.iter_mut().flatten().for_each(|c| *c *= 1.01);
         self.spoil(Phase::Shade, sound, spoil)
+    }
+
+    fn reconstruct(
+        &self,
+        gbuffer: &Arc<GBuffer>,
+        radiance: &Arc<Radiance>,
+        plan: &ReconstructPlan,
+    ) -> Result<Arc<Radiance>> {
+        let sound = self.cpu.reconstruct(gbuffer, radiance, plan);
+        let dim = |r: &mut Radiance| {
+            r.indirect_diffuse
+                .iter_mut()
+                .flatten()
+                .for_each(|c| *c *= 1.01);
+        };
+        self.spoil(Phase::Reconstruct, sound, dim)
     }
 
     fn resolve(

@@ -2,7 +2,7 @@
 
 use crate::data::{Columns, GBuffer, Image, Pdf, Radiance, Rsm, SceneData, Vsgls};
 use crate::error::Result;
-use crate::plan::{ClusterPlan, GBufferPlan, PdfPlan, RsmPlan, ShadePlan};
+use crate::plan::{ClusterPlan, GBufferPlan, PdfPlan, ReconstructPlan, RsmPlan, ShadePlan};
 use crate::render::{Observer, View};
 use crate::scene::Light;
 
@@ -77,6 +77,16 @@ pub trait Backend: Sized {
         inputs: &ShadeInputs<'_, Self>,
         plan: &ShadePlan,
         observer: &dyn Observer,
+    ) -> Result<Self::Res<Radiance>>;
+    /// Light to the eye from the sums that shading left, if the plan says so.
+    ///
+    /// # Errors
+    /// If the device failed.
+    fn reconstruct(
+        &self,
+        gbuffer: &Self::Res<GBuffer>,
+        radiance: &Self::Res<Radiance>,
+        plan: &ReconstructPlan,
     ) -> Result<Self::Res<Radiance>>;
     /// The mean over the samples of each pixel.
     ///

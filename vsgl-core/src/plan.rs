@@ -1,6 +1,7 @@
 //! What will run, decided once from the scene's facts and the settings, with a reason for each decision.
 
-use crate::error::Result;
+use crate::error::{Error, Result};
+use crate::phase::reconstruct::FILTER;
 use crate::scene::{EMITTER_POINTS, SceneFacts, SurfaceFacts};
 use crate::settings::{
     Clustering, DiffuseForm, Emission, GlossyForm, Method, OcclusionMethod, PdfMethod, Primary,
@@ -16,6 +17,8 @@ pub struct Plan {
     pub bounce: Option<BouncePlan>,
     /// Shading.
     pub shade: ShadePlan,
+    /// From shares of the virtual lights to all of them.
+    pub reconstruct: Option<ReconstructPlan>,
     /// Why, a line for each decision.
     pub reasons: Vec<Reason>,
 }
@@ -163,8 +166,39 @@ pub struct ShadePlan {
     pub glossy: GlossyForm,
     /// Blocking of indirect light.
     pub occlusion: OcclusionMethod,
+    /// Rays from each sample, where they are drawn.
+    pub rays: u32,
+    /// Side of the square of samples that share out the virtual lights.
+    pub interleave: u32,
     /// Shadow rays pass where alpha masks leave surfaces out.
     pub masks: bool,
+}
+
+impl ShadePlan {
+    /// Whether shading leaves sums for reconstruction instead of light to the eye.
+    pub fn leaves_sums(&self) -> bool {
+        self.bounce && (self.interleave > 1 || self.occlusion == OcclusionMethod::Sampled)
+    }
+}
+
+/// Reconstruction from shares of the virtual lights.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ReconstructPlan {
+    /// Side of the square of samples that share out the virtual lights.
+    pub interleave: u32,
+    /// The receivers' specular part.
+    pub glossy: bool,
+    /// Light of surfaces that shine.
+    pub emitters: bool,
+    /// Visibility from rays that were drawn.
+    pub sampled: bool,
+}
+
+impl ReconstructPlan {
+    /// Side of the square over which visibility is taken together.
+    pub fn filter(&self) -> u32 {
+        self.interleave.max(FILTER)
+    }
 }
 
 impl Plan {
@@ -249,6 +283,9 @@ impl Plan {
             );
         let (mut seen, mut sent) = surfaces(facts, lit, &mut reasons);
         (seen.anisotropy, sent.anisotropy) = (stretched, stretching);
+        if settings.method == Method::Vpl {
+            texels_are_the_reference(settings)?;
+        }
         let clusters = lit && settings.method == Method::Vsgl;
         if lit && !clusters {
             reasons.no("clusters", "the method `vpl` takes every texel for a light");
@@ -295,7 +332,11 @@ impl Plan {
                     settings.occlusion != OcclusionMethod::None,
                     "switched off: indirect light passes through walls",
                 )],
-                "one ray from each pixel to each virtual light",
+                if settings.occlusion == OcclusionMethod::Sampled {
+                    "a few rays from each pixel, to virtual lights chosen by what they bring"
+                } else {
+                    "one ray from each pixel to each virtual light"
+                },
             );
         let important = samples
             && reasons.decide(
@@ -306,6 +347,16 @@ impl Plan {
                 )],
                 "virtual lights from what the camera sees say which texels matter to it",
             );
+        let lights = if whole {
+            maps.saturating_add(u32::from(shines))
+        } else {
+            settings.lights
+        };
+        let interleave = if lit {
+            reasons.interleave(settings.interleave, lights)
+        } else {
+            1
+        };
         let shade = ShadePlan {
             bounce: lit,
             emitters: shines,
@@ -321,6 +372,8 @@ impl Plan {
             } else {
                 OcclusionMethod::None
             },
+            rays: settings.rays,
+            interleave,
             masks: seen.masks,
         };
         let importance = important.then(|| ImportancePlan::new(settings, &shade));
@@ -338,11 +391,7 @@ impl Plan {
                 importance,
             }),
             cluster: clusters.then_some(ClusterPlan {
-                count: if whole {
-                    maps.saturating_add(u32::from(shines))
-                } else {
-                    settings.lights
-                },
+                count: lights,
                 method: settings.clustering,
                 kernel: settings.kernel,
                 bisections: settings.bisections,
@@ -353,6 +402,26 @@ impl Plan {
                 anisotropic: stretching,
                 apart: whole,
             }),
+        });
+        let sampled = shade.occlusion == OcclusionMethod::Sampled;
+        let reconstruct = lit
+            && reasons.decide(
+                "reconstruction",
+                &[(
+                    shade.leaves_sums(),
+                    "every sample takes all virtual lights, and its own visibility",
+                )],
+                if sampled {
+                    "visibility is taken together over neighbouring samples"
+                } else {
+                    "neighbouring samples hold the other virtual lights"
+                },
+            );
+        let reconstruct = reconstruct.then_some(ReconstructPlan {
+            interleave,
+            glossy: receivers,
+            emitters: shines,
+            sampled,
         });
         let raster = reasons.decide(
             "raster",
@@ -381,6 +450,7 @@ impl Plan {
             gbuffer,
             bounce,
             shade,
+            reconstruct,
             reasons: reasons.0,
         })
     }
@@ -414,10 +484,31 @@ impl ImportancePlan {
                 diffuse: forms.diffuse,
                 glossy: forms.glossy,
                 occlusion: OcclusionMethod::None,
+                interleave: 1,
                 ..shade.clone()
             },
         }
     }
+}
+
+/// Every texel from every pixel, or an error: what the method `vpl` is for.
+fn texels_are_the_reference(settings: &Settings) -> Result<()> {
+    let remedy = |word: &str| format!("set `{word}`, or `method` to `vsgl`");
+    if settings.interleave > 1 {
+        return Err(Error::setting(
+            "interleave",
+            "the method `vpl` is the reference, and takes every texel for every pixel",
+            remedy("interleave` to `1"),
+        ));
+    }
+    if settings.occlusion == OcclusionMethod::Sampled {
+        return Err(Error::setting(
+            "occlusion",
+            "`sampled` chooses among virtual lights, and the method `vpl` has none but texels",
+            remedy("occlusion` to `rays"),
+        ));
+    }
+    Ok(())
 }
 
 /// What is read of the surfaces that the camera sees, and of those that the lights see.
@@ -522,6 +613,27 @@ impl Reasons {
         self.0.push(Reason {
             topic: "smaller maps",
             runs: side != wanted,
+            why,
+        });
+        side
+    }
+
+    /// Side of the square of samples that share out the lights: as wanted, but halved until every share has a light.
+    fn interleave(&mut self, wanted: u32, lights: u32) -> u32 {
+        let mut side = wanted;
+        while side > 1 && side * side > lights {
+            side /= 2;
+        }
+        let why = match (wanted, side) {
+            (1, _) => "every sample takes every virtual light".to_owned(),
+            _ if side < wanted => {
+                format!("{lights} lights are fewer than {wanted}x{wanted} shares")
+            }
+            _ => format!("each sample of {side}x{side} takes its share of the virtual lights"),
+        };
+        self.0.push(Reason {
+            topic: "interleaved shading",
+            runs: side > 1,
             why,
         });
         side

@@ -105,6 +105,8 @@ pub enum Phase {
     GBuffer,
     /// Light to the eye.
     Shade,
+    /// From shares of the virtual lights to all of them.
+    Reconstruct,
     /// Samples to pixels.
     Resolve,
 }
@@ -117,6 +119,7 @@ impl fmt::Display for Phase {
             Self::Cluster => "cluster",
             Self::GBuffer => "gbuffer",
             Self::Shade => "shade",
+            Self::Reconstruct => "reconstruct",
             Self::Resolve => "resolve",
         })
     }
@@ -156,7 +159,7 @@ pub struct Frame<B: Backend> {
     pub image: B::Res<Image>,
 }
 
-/// Renders a picture: RSM → G-buffer → PDF → cluster → shade → resolve, as far as the plan wants them.
+/// Renders a picture: RSM → G-buffer → PDF → cluster → shade → reconstruct → resolve, as far as the plan wants them.
 ///
 /// # Errors
 /// [`Error::Cancelled`] if the observer says so, and what the backend's phases return.
@@ -208,6 +211,12 @@ pub fn render<B: Backend>(
     let radiance = run(observer, Phase::Shade, || {
         backend.shade(&inputs, &plan.shade, observer)
     })?;
+    let radiance = match &plan.reconstruct {
+        Some(plan) => run(observer, Phase::Reconstruct, || {
+            backend.reconstruct(&gbuffer, &radiance, plan)
+        })?,
+        None => radiance,
+    };
     let image = run(observer, Phase::Resolve, || {
         backend.resolve(&gbuffer, &radiance, view)
     })?;

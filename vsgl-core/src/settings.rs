@@ -34,6 +34,10 @@ pub struct Settings {
     pub glossy: GlossyForm,
     /// Whether and how indirect light is blocked.
     pub occlusion: OcclusionMethod,
+    /// Rays from each sample with `occlusion` = `sampled`: 1 ..= 64.
+    pub rays: u32,
+    /// Side of the square of samples that share out the virtual lights: 1, 2, 4 or 8; 1 gives every sample all of them.
+    pub interleave: u32,
     /// What decides which triangle the camera sees.
     pub primary: Primary,
 }
@@ -55,6 +59,8 @@ impl Default for Settings {
             diffuse: DiffuseForm::V13,
             glossy: GlossyForm::NdfFilter,
             occlusion: OcclusionMethod::Rays,
+            rays: 8,
+            interleave: 1,
             primary: Primary::Rays,
         }
     }
@@ -219,6 +225,9 @@ choice! {
         None = "none",
         /// One ray from each pixel to a real point of each cluster.
         Rays = "rays",
+        /// A few rays from each pixel, to clusters chosen by what they bring to the eye; the share of open ones, taken together
+        /// over neighbours, times the light without shadows.
+        Sampled = "sampled",
     }
 }
 choice! {
@@ -286,6 +295,8 @@ impl Settings {
     pub const LIGHTS_MAX: u32 = 65_536;
     /// Largest side of a reflective shadow map.
     pub const RSM_MAX: u32 = 4096;
+    /// Most rays from a sample.
+    pub const RAYS_MAX: u32 = 64;
     /// All keys, in the order of [`Settings::entries`].
     pub const KEYS: &'static [&'static str] = &[
         "method",
@@ -302,6 +313,8 @@ impl Settings {
         "diffuse",
         "glossy",
         "occlusion",
+        "rays",
+        "interleave",
         "primary",
     ];
 
@@ -322,6 +335,8 @@ impl Settings {
             self.diffuse.to_string(),
             self.glossy.to_string(),
             self.occlusion.to_string(),
+            self.rays.to_string(),
+            self.interleave.to_string(),
             self.primary.to_string(),
         ];
         Self::KEYS.iter().copied().zip(values).collect()
@@ -360,6 +375,8 @@ impl Settings {
                     OcclusionMethod::WORDS,
                 )?
             }
+            "rays" => self.rays = integer(key, value, 1, Self::RAYS_MAX)?,
+            "interleave" => self.interleave = side(key, value)?,
             "primary" => self.primary = word(key, value, Primary::from_word, Primary::WORDS)?,
             _ => {
                 let remedy = format!("keys are {}", Self::KEYS.join(", "));
@@ -391,6 +408,12 @@ fn integer(key: &str, value: &str, least: u32, most: u32) -> Result<u32> {
     })
 }
 
+/// A side of [`Settings::interleave`].
+fn side(key: &str, value: &str) -> Result<u32> {
+    let fits = value.parse().ok().filter(|n| [1, 2, 4, 8].contains(n));
+    fits.ok_or_else(|| Error::setting(key, format!("`{value}` does not fit"), "give 1, 2, 4 or 8"))
+}
+
 fn number(key: &str, value: &str, least: f32, most: f32) -> Result<f32> {
     let fits = value.parse().ok().filter(|n| (least..=most).contains(n));
     fits.ok_or_else(|| {
@@ -419,6 +442,8 @@ mod tests {
             ("glossy", "x"),
             ("nokey", "1"),
             ("rsm", "1e3"),
+            ("interleave", "3"),
+            ("rays", "65"),
         ] {
             assert!(settings.set(key, value).is_err(), "{key}={value}");
         }

@@ -32,7 +32,7 @@ mod phase;
 use std::sync::Arc;
 use vsgl_core::backend::{Backend, PdfInputs, ShadeInputs};
 use vsgl_core::data::{Columns, GBuffer, Image, Pdf, Radiance, Rsm, SceneData, Vsgls};
-use vsgl_core::plan::{ClusterPlan, GBufferPlan, PdfPlan, RsmPlan, ShadePlan};
+use vsgl_core::plan::{ClusterPlan, GBufferPlan, PdfPlan, ReconstructPlan, RsmPlan, ShadePlan};
 use vsgl_core::render::{Observer, View};
 use vsgl_core::scene::Light;
 use vsgl_core::settings::Primary;
@@ -140,6 +140,17 @@ impl Backend for CpuBackend {
         self.pool
             .install(|| phase::shade::run(inputs, plan, observer))
             .map(Arc::new)
+    }
+
+    fn reconstruct(
+        &self,
+        gbuffer: &Arc<GBuffer>,
+        radiance: &Arc<Radiance>,
+        plan: &ReconstructPlan,
+    ) -> Result<Arc<Radiance>> {
+        Ok(Arc::new(self.pool.install(|| {
+            phase::reconstruct::run(gbuffer, radiance, plan)
+        })))
     }
 
     fn resolve(

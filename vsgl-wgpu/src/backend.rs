@@ -9,7 +9,7 @@ use crate::timing::{Clock, Timings};
 use std::time::Instant;
 use vsgl_core::backend::{Backend, PdfInputs, ShadeInputs};
 use vsgl_core::data::{Columns, GBuffer, Image, Pdf, Radiance, Rsm, SceneData, Vsgls};
-use vsgl_core::plan::{ClusterPlan, GBufferPlan, PdfPlan, RsmPlan, ShadePlan};
+use vsgl_core::plan::{ClusterPlan, GBufferPlan, PdfPlan, ReconstructPlan, RsmPlan, ShadePlan};
 use vsgl_core::render::{Observer, Phase, View};
 use vsgl_core::scene::Light;
 use vsgl_core::{Error, Result};
@@ -145,6 +145,17 @@ impl Backend for WgpuBackend {
             self.context.wait_but_one()?;
         }
         Ok(shading.finish())
+    }
+
+    fn reconstruct(
+        &self,
+        gbuffer: &WgpuRes<GBuffer>,
+        radiance: &WgpuRes<Radiance>,
+        plan: &ReconstructPlan,
+    ) -> Result<WgpuRes<Radiance>> {
+        self.phase(Phase::Reconstruct, |r| {
+            passes::reconstruct::record(r, gbuffer, radiance, plan)
+        })
     }
 
     fn resolve(

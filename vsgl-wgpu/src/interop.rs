@@ -240,7 +240,13 @@ impl Context {
         for (_, band) in shading.bands() {
             shading.record(&mut recorder, &shaded, band)?;
         }
-        Ok(shading.finish())
+        let radiance = shading.finish();
+        let Some(plan) = &plan.reconstruct else {
+            return Ok(radiance);
+        };
+        drop(recorder);
+        let mut recorder = Recorder::new(self, encoder, Phase::Reconstruct);
+        passes::reconstruct::record(&mut recorder, inputs.gbuffer, &radiance, plan)
     }
 
     /// Records the way of the light into a texture of the host: level 0, of the size of the G-buffer.

@@ -29,6 +29,7 @@ const GROUPS: &[(&str, &[&str])] = &[
         "radiance",
         &["direct", "indirect_diffuse", "indirect_glossy"],
     ),
+    ("radiance", &["sums", "emitted"]),
     (
         "image",
         &[
@@ -97,28 +98,30 @@ pub(crate) type Shape = (&'static str, u64, u64);
 impl<T: Columns> WgpuRes<T> {
     /// Room for columns of given shapes; contents are whatever was there.
     pub(crate) fn new(context: &Context, head: Vec<u32>, shapes: &[Shape]) -> Result<Self> {
-        let grouped = GROUPS
+        let groups: Vec<&[&str]> = GROUPS
             .iter()
-            .find(|(resource, _)| *resource == T::NAME)
-            .map_or(&[][..], |(_, columns)| *columns);
+            .filter(|(resource, _)| *resource == T::NAME)
+            .map(|(_, columns)| *columns)
+            .collect();
         let mut columns = Vec::new();
         let mut buffers: Vec<Pooled> = Vec::new();
-        let group: u64 = shapes
-            .iter()
-            .filter(|(name, ..)| grouped.contains(name))
-            .map(|(_, stride, count)| stride * count)
-            .sum();
-        if !grouped.is_empty() {
-            buffers.push(context.buffer(&format!("the resource `{}`", T::NAME), group)?);
+        for grouped in &groups {
+            let bytes: u64 = shapes
+                .iter()
+                .filter(|(name, ..)| grouped.contains(name))
+                .map(|(_, stride, count)| stride * count)
+                .sum();
+            buffers.push(context.buffer(&format!("the resource `{}`", T::NAME), bytes)?);
         }
-        let mut passed = 0;
+        let mut passed = vec![0; groups.len()];
         for &(name, stride, count) in shapes {
             let bytes = stride * count;
-            let place = if grouped.contains(&name) {
-                passed += bytes;
+            let group = groups.iter().position(|columns| columns.contains(&name));
+            let place = if let Some(index) = group {
+                passed[index] += bytes;
                 Place::Buffer {
-                    index: 0,
-                    offset: passed - bytes,
+                    index,
+                    offset: passed[index] - bytes,
                 }
             } else if TEXELS.0 == T::NAME && TEXELS.1.contains(&name) {
                 Place::Texels { first: 0 }

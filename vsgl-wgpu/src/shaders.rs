@@ -27,9 +27,11 @@ pub const MODULES: &[(&str, &str)] = modules![
     "data/nearest",
     "data/partition",
     "data/point_sender",
+    "data/receivers",
     "data/scan",
     "data/scan_counts",
     "data/scene",
+    "data/sums",
     "data/texel",
     "data/view",
     "data/vsgls",
@@ -51,9 +53,11 @@ pub const MODULES: &[(&str, &str)] = modules![
     "entry/partition",
     "entry/pdf",
     "entry/raster",
+    "entry/reconstruct",
     "entry/resolve",
     "entry/round",
     "entry/rsm",
+    "entry/sampled",
     "entry/senders",
     "entry/shade",
     "entry/sort",
@@ -77,14 +81,17 @@ pub const MODULES: &[(&str, &str)] = modules![
     "phase/footprint",
     "phase/gbuffer",
     "phase/importance",
+    "phase/interleave",
     "phase/mask",
     "phase/nearest",
     "phase/normal_map",
     "phase/partition",
     "phase/pdf",
+    "phase/reconstruct",
     "phase/reflect",
     "phase/resolve",
     "phase/rsm",
+    "phase/sampled",
     "phase/shade",
     "phase/surface",
     "phase/texture",
@@ -161,8 +168,8 @@ const fn words<T>() -> u32 {
 fn header() -> String {
     use vsgl_core::data::{self, map_kind};
     use vsgl_core::phase::{
-        cluster, direct, facing, filtered_box, footprint, importance, nearest, normal_map,
-        partition, pdf, rsm, shade, surface, texture, whole,
+        cluster, direct, facing, filtered_box, footprint, importance, interleave, nearest,
+        normal_map, partition, pdf, reconstruct, rsm, sampled, shade, surface, texture, whole,
     };
     let floats: &[(&str, f32)] = &[
         ("ALPHA_MIN", surface::ALPHA_MIN),
@@ -188,6 +195,9 @@ fn header() -> String {
         ("TANGENT_MIN", normal_map::TANGENT_MIN),
         ("AXIS_MAX", texture::AXIS_MAX),
         ("HALF_LOG2_E", texture::HALF_LOG2_E),
+        ("SLOPE_MAX", reconstruct::SLOPE_MAX),
+        ("TURN_MAX", reconstruct::TURN_MAX),
+        ("ROUGHNESS_FALL", reconstruct::ROUGHNESS_FALL),
     ];
     let integers: &[(&str, u32)] = &[
         ("NO_TRIANGLE", data::NO_TRIANGLE),
@@ -215,6 +225,10 @@ fn header() -> String {
         ("SORT_BLOCK", crate::passes::SORT_BLOCK),
         ("CLUSTER_BLOCK", cluster::BLOCK as u32),
         ("CLUSTER_LANES", cluster::LANES as u32),
+        ("TILE", interleave::TILE),
+        ("STEP_X", sampled::STEP_X),
+        ("STEP_Y", sampled::STEP_Y),
+        ("RAYS_MAX", vsgl_core::settings::Settings::RAYS_MAX),
     ];
     let mut text = String::new();
     for (name, value) in floats {

@@ -45,6 +45,9 @@ pub struct SettingsArgs {
     /// Whether and how indirect light is blocked
     #[arg(long, value_parser = PossibleValuesParser::new(OcclusionMethod::WORDS))]
     pub occlusion: Option<String>,
+    /// Side of the square of pixels that share out the virtual lights: 1, 2, 4 or 8 [default: 1]
+    #[arg(long, value_name = "N", allow_hyphen_values = true)]
+    pub interleave: Option<String>,
     /// Integral over the receiver's Lambert part
     #[arg(long, value_parser = PossibleValuesParser::new(DiffuseForm::WORDS))]
     pub diffuse: Option<String>,
@@ -58,7 +61,7 @@ pub struct SettingsArgs {
 
 impl SettingsArgs {
     /// Keys of core's settings that have a flag of the same name.
-    pub const FLAGS: [&'static str; 11] = [
+    pub const FLAGS: [&'static str; 12] = [
         "method",
         "lights",
         "rsm",
@@ -67,6 +70,7 @@ impl SettingsArgs {
         "emission",
         "clustering",
         "occlusion",
+        "interleave",
         "diffuse",
         "glossy",
         "primary",
@@ -83,6 +87,7 @@ impl SettingsArgs {
             &self.emission,
             &self.clustering,
             &self.occlusion,
+            &self.interleave,
             &self.diffuse,
             &self.glossy,
             &self.primary,

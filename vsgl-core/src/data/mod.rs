@@ -21,7 +21,7 @@ pub use image::Image;
 pub(crate) use light::ALL_AROUND;
 pub use light::LightRecord;
 pub use pdf::Pdf;
-pub use radiance::Radiance;
+pub use radiance::{Radiance, SampleSums};
 pub use rsm::{MapRecord, Rsm, map_kind};
 pub use scene_data::{
     DOUBLE_SIDED, MIPS, MaterialRecord, NEAREST, NO_TEXTURE, SECOND_SET, SceneData, TextureRecord,

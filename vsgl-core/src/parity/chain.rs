@@ -111,6 +111,14 @@ pub fn chain<R: Backend, T: Backend>(
         || r.shade(&inputs, &plan.shade, observer),
         || t.shade(&tested_inputs, &plan.shade, observer),
     )?;
+    let radiance = match &plan.reconstruct {
+        Some(plan) => run.phase(
+            Phase::Reconstruct,
+            || r.reconstruct(&gbuffer.reference, &radiance.reference, plan),
+            || t.reconstruct(&gbuffer.tested, &radiance.tested, plan),
+        )?,
+        None => radiance,
+    };
     run.phase(
         Phase::Resolve,
         || r.resolve(&gbuffer.reference, &radiance.reference, view),

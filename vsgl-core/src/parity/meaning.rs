@@ -54,6 +54,13 @@ type Row = (
     &'static [(&'static str, usize, Kind)],
 );
 
+/// Sums over a share of the lights. Which lights were drawn, and which are open, are decisions.
+#[rustfmt::skip]
+const SUMS: &[(&str, usize, Kind)] = &[
+    ("diffuse", 3, Kind::Numbers), ("total", 1, Kind::Numbers), ("near", 3, Kind::Numbers), ("open", 1, Kind::Whole),
+    ("grazing", 3, Kind::Numbers), ("asked", 1, Kind::Whole),
+];
+
 /// Resource, column, order of entries, lanes. A column that is not here is taken as it comes; see [`meaning`].
 #[rustfmt::skip]
 const TABLE: &[Row] = {
@@ -71,6 +78,8 @@ const TABLE: &[Row] = {
         ("radiance", "direct", Picture, &[("", 3, Numbers)]),
         ("radiance", "indirect_diffuse", Picture, &[("", 3, Numbers)]),
         ("radiance", "indirect_glossy", Picture, &[("", 3, Numbers)]),
+        ("radiance", "sums", Picture, SUMS),
+        ("radiance", "emitted", Picture, SUMS),
         ("image", "direct", Picture, &[("", 3, Numbers)]),
         ("image", "indirect_diffuse", Picture, &[("", 3, Numbers)]),
         ("image", "indirect_glossy", Picture, &[("", 3, Numbers)]),

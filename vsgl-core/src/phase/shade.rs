@@ -119,11 +119,13 @@ impl Colors {
     }
 
     /// Radiance to the eye by the Lambert part, from the sum of strength times Lambert factor.
+    #[inline(always)]
     pub fn diffuse(&self, sum: Vec3) -> Vec3 {
         sum * (self.albedo * std::f32::consts::FRAC_1_PI)
     }
 
     /// Radiance to the eye by the specular part, from the sums for `F0` and for `F90`.
+    #[inline(always)]
     pub fn glossy(&self, near: Vec3, grazing: Vec3) -> Vec3 {
         near * self.f0 + grazing * self.f90
     }

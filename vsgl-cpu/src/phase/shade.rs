@@ -2,20 +2,25 @@
 
 use super::band;
 use super::block::{self, LANES, Receivers, Sums};
+use super::sampled::{self, ColorLanes, Contributions};
 use crate::CpuBackend;
 use glam::Vec3;
 use multiversion::multiversion;
 use rayon::prelude::*;
+use std::iter::StepBy;
 use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use vsgl_core::backend::{Senders, ShadeInputs};
 use vsgl_core::data::{
-    GBuffer, LightRecord, NO_TRIANGLE, Radiance, Rsm, SceneData, Target, Vsgls, map_kind,
+    GBuffer, LightRecord, NO_TRIANGLE, Radiance, Rsm, SampleSums, SceneData, Target, Vsgls,
+    map_kind,
 };
 use vsgl_core::geom::{Opaque, any_hit_block};
 use vsgl_core::phase::direct;
 use vsgl_core::phase::facing::{geometric_normal, lift};
+use vsgl_core::phase::interleave::Shares;
 use vsgl_core::phase::mask::Masked;
+use vsgl_core::phase::sampled::offset;
 use vsgl_core::phase::shade::{Colors, PointSender, Receiver};
 use vsgl_core::plan::ShadePlan;
 use vsgl_core::render::{Observer, Phase};
@@ -58,7 +63,17 @@ pub(crate) fn run(
             .partition_point(|(texel, _)| rsm.map_of(*texel as usize).kind != map_kind::EMITTERS),
     };
     let lights: Vec<LightRecord> = lights.iter().map(LightRecord::from).collect();
+    let shares = Shares {
+        side: if plan.leaves_sums() {
+            plan.interleave
+        } else {
+            1
+        },
+        width: gbuffer.width,
+        height: gbuffer.height,
+    };
     let shader = Shader {
+        shares,
         scene,
         gbuffer,
         eye: view.camera.eye,
@@ -67,7 +82,7 @@ pub(crate) fn run(
         emitters,
         plan,
     };
-    let blocks = gbuffer.triangle.len().div_ceil(LANES);
+    let blocks = (shares.indices() as usize).div_ceil(LANES);
     let done = AtomicUsize::new(0);
     let shade = |index: usize| {
         if observer.cancelled() {
@@ -86,11 +101,20 @@ pub(crate) fn run(
         height: gbuffer.height,
         ..Radiance::default()
     };
+    if plan.leaves_sums() {
+        radiance.direct = vec![[0.0; 3]; count];
+        radiance.sums = vec![SampleSums::default(); count];
+        radiance.emitted = vec![SampleSums::default(); if plan.emitters { count } else { 0 }];
+    }
     for first in (0..blocks).step_by(BLOCKS_A_BAND) {
         let band = first..blocks.min(first + BLOCKS_A_BAND);
-        let left = count - first * LANES;
         let band: Vec<Block> = band.into_par_iter().map(shade).collect::<Result<_>>()?;
-        radiance.append(&columns(&band, left, plan), count);
+        if plan.leaves_sums() {
+            scatter(&mut radiance, &band, first, &shares);
+        } else {
+            let left = count - first * LANES;
+            radiance.append(&columns(&band, left, plan), count);
+        }
     }
     Ok(radiance)
 }
@@ -111,6 +135,25 @@ fn columns(blocks: &[Block], left: usize, plan: &ShadePlan) -> Radiance {
     }
 }
 
+/// Puts blocks, the first of them number `first`, where their samples are.
+fn scatter(radiance: &mut Radiance, blocks: &[Block], first: usize, shares: &Shares) {
+    for (block, number) in blocks.iter().zip(first..) {
+        for lane in 0..LANES {
+            let index = (number * LANES + lane) as u32;
+            let (x, y) = shares.sample(index);
+            if index >= shares.indices() || x >= shares.width || y >= shares.height {
+                continue;
+            }
+            let at = y as usize * shares.width as usize + x as usize;
+            radiance.direct[at] = block.direct[lane];
+            radiance.sums[at] = block.sums[lane];
+            if let Some(emitted) = radiance.emitted.get_mut(at) {
+                *emitted = block.emitted[lane];
+            }
+        }
+    }
+}
+
 /// Texels with flux as point lights.
 fn point_senders(rsm: &Rsm, plan: &ShadePlan) -> Vec<(u32, PointSender)> {
     let sender = |texel: usize| {
@@ -128,6 +171,8 @@ struct Block {
     direct: [[f32; 3]; LANES],
     indirect_diffuse: [[f32; 3]; LANES],
     indirect_glossy: [[f32; 3]; LANES],
+    sums: [SampleSums; LANES],
+    emitted: [SampleSums; LANES],
 }
 
 enum Indirect<'a> {
@@ -137,6 +182,7 @@ enum Indirect<'a> {
 }
 
 struct Shader<'a> {
+    shares: Shares,
     scene: &'a SceneData,
     gbuffer: &'a GBuffer,
     eye: Vec3,
@@ -148,22 +194,32 @@ struct Shader<'a> {
 }
 
 /// Where shadow rays of a block start, and which lanes hold a surface.
-struct Origins {
-    position: [[f32; LANES]; 3],
-    hit: [bool; LANES],
+pub(crate) struct Origins {
+    pub(crate) position: [[f32; LANES]; 3],
+    pub(crate) hit: [bool; LANES],
 }
 
 impl Shader<'_> {
     fn block(&self, start: usize) -> Block {
         let mut block = Block::default();
-        let count = LANES.min(self.gbuffer.triangle.len() - start);
-        let hit: [bool; LANES] =
-            std::array::from_fn(|i| i < count && self.gbuffer.triangle[start + i] != NO_TRIANGLE);
+        let shares = &self.shares;
+        let places: [(u32, u32); LANES] =
+            std::array::from_fn(|lane| shares.sample((start + lane) as u32));
+        let at = |lane: usize| {
+            let (x, y) = places[lane];
+            let inside = x < shares.width && y < shares.height;
+            inside.then_some(y as usize * shares.width as usize + x as usize)
+        };
+        let hit: [bool; LANES] = std::array::from_fn(|lane| {
+            at(lane).is_some_and(|at| self.gbuffer.triangle[at] != NO_TRIANGLE)
+        });
         let Some(some) = hit.iter().position(|&h| h) else {
             return block;
         };
         // Lanes without a surface repeat one that has: the same work, thrown away.
-        let index = |lane: usize| start + if hit[lane] { lane } else { some };
+        let index = |lane: usize| {
+            at(if hit[lane] { lane } else { some }).expect("a sample that hit something is inside")
+        };
         let single: [Receiver; LANES] =
             std::array::from_fn(|lane| Receiver::of(self.gbuffer, index(lane), self.eye));
         let mut origins = Origins {
@@ -197,6 +253,24 @@ impl Shader<'_> {
         let receivers = Receivers::new(&single);
         let colors: [Colors; LANES] =
             std::array::from_fn(|lane| Colors::of(self.gbuffer, index(lane)));
+        if self.plan.leaves_sums() {
+            let (x, y) = places[some];
+            let seen = Seen {
+                receivers,
+                colors: ColorLanes::new(&colors),
+                origins,
+                share: shares.share(x, y) as usize,
+                offsets: std::array::from_fn(|lane| {
+                    let (x, y) = places[if hit[lane] { lane } else { some }];
+                    offset(shares, x, y)
+                }),
+            };
+            block.sums = self.share(0..self.emitters, &seen);
+            if self.emitters < usize::MAX {
+                block.emitted = self.share(self.emitters..usize::MAX, &seen);
+            }
+            return block;
+        }
         let lane_sums = |sums: &Sums, lane: usize| {
             [&sums.diffuse, &sums.near, &sums.grazing]
                 .map(|sum| Vec3::from_array(sum.map(|c| c[lane])))
@@ -220,13 +294,59 @@ impl Shader<'_> {
         block
     }
 
+    /// Sums over a share of some of the virtual lights, with the rays that were drawn.
+    fn share(&self, lights: Range<usize>, seen: &Seen) -> [SampleSums; LANES] {
+        let Indirect::Vsgls(vsgls) = &self.indirect else {
+            return [SampleSums::default(); LANES];
+        };
+        let count = vsgls.diffuse.len();
+        let (first, end) = (lights.start.min(count), lights.end.min(count));
+        let stride = self.shares.count() as usize;
+        // The first of the share that is not before the range.
+        let first = first + (seen.share + stride - first % stride) % stride;
+        let lights = (first..end.max(first)).step_by(stride);
+        let mut total = [0.0; LANES];
+        let [mut opened, mut asked] = [[0.0; LANES]; 2];
+        let sums = if self.plan.occlusion == OcclusionMethod::Sampled {
+            let (sums, contributions) =
+                sum_sampled(vsgls, lights, &seen.receivers, &seen.colors, self.plan);
+            total = contributions.total;
+            [opened, asked] = sampled::draw(
+                self.scene,
+                &contributions,
+                |light| &vsgls.target[first + light * stride],
+                &seen.origins,
+                &seen.offsets,
+                self.plan.rays,
+                self.plan.masks,
+            );
+            sums
+        } else {
+            let (receivers, origins) = (&seen.receivers, &seen.origins);
+            sum_vsgls(self.scene, vsgls, lights, receivers, origins, self.plan)
+        };
+        std::array::from_fn(|lane| {
+            if !seen.origins.hit[lane] {
+                return SampleSums::default();
+            }
+            SampleSums {
+                diffuse: sums.diffuse.map(|c| c[lane]),
+                total: total[lane],
+                near: sums.near.map(|c| c[lane]),
+                open: opened[lane],
+                grazing: sums.grazing.map(|c| c[lane]),
+                asked: asked[lane],
+            }
+        })
+    }
+
     /// Sums over some of the virtual lights; those beyond the last are none.
     fn sum(&self, lights: Range<usize>, receivers: &Receivers, origins: &Origins) -> Sums {
         let within = |count: usize| lights.start.min(count)..lights.end.min(count);
         match &self.indirect {
             Indirect::None => Sums::default(),
             Indirect::Vsgls(vsgls) => {
-                let lights = within(vsgls.diffuse.len());
+                let lights = within(vsgls.diffuse.len()).step_by(1);
                 sum_vsgls(self.scene, vsgls, lights, receivers, origins, self.plan)
             }
             Indirect::Vpls(points, rsm) => {
@@ -235,6 +355,15 @@ impl Shader<'_> {
             }
         }
     }
+}
+
+/// Sixteen receivers of one share.
+struct Seen {
+    receivers: Receivers,
+    colors: ColorLanes,
+    origins: Origins,
+    share: usize,
+    offsets: [f32; LANES],
 }
 
 /// 1 for each lane that light reaches from a target, else 0. Lanes without light are not asked.
@@ -256,11 +385,49 @@ fn open(
         }
         asked[lane] = origins.hit[lane] & sums.lit(lane);
     }
+    walk(scene, origins, &direction, &asked, masks)
+}
+
+/// The same with a target for each lane; lanes without one are not asked.
+#[multiversion(targets("x86_64+avx2+fma", "aarch64+neon"))]
+pub(crate) fn lanes_open(
+    scene: &SceneData,
+    targets: &[Option<&Target>; LANES],
+    origins: &Origins,
+    masks: bool,
+) -> [f32; LANES] {
+    let mut direction = [[0.0; LANES]; 3];
+    for (lane, target) in targets.iter().enumerate() {
+        let Some(target) = target else { continue };
+        let lift = lift(scene.lift(), Vec3::from_array(target.position));
+        let end = Vec3::from_array(target.position) + Vec3::from_array(target.normal) * lift;
+        for channel in 0..3 {
+            direction[channel][lane] = end[channel] - origins.position[channel][lane];
+        }
+    }
+    walk(
+        scene,
+        origins,
+        &direction,
+        &targets.map(|t| t.is_some()),
+        masks,
+    )
+}
+
+/// Rays of a block through the scene.
+#[inline(always)]
+fn walk(
+    scene: &SceneData,
+    origins: &Origins,
+    direction: &[[f32; LANES]; 3],
+    asked: &[bool; LANES],
+    masks: bool,
+) -> [f32; LANES] {
     let (nodes, corners, from) = (&scene.node, &scene.corner, &origins.position);
     let blocked = if masks {
-        any_hit_block(nodes, corners, from, &direction, &asked, &Masked(scene))
+        any_hit_block(nodes, corners, from, direction, asked, &Masked(scene))
     } else {
-        any_hit_block(nodes, corners, from, &direction, &asked, &Opaque)
+        any_hit_block(nodes, corners, from, direction, asked, &Opaque)
     };
     blocked.map(|b| 1.0 - b as f32)
 }
@@ -269,7 +436,7 @@ fn open(
 fn sum_vsgls(
     scene: &SceneData,
     vsgls: &Vsgls,
-    lights: Range<usize>,
+    lights: StepBy<Range<usize>>,
     receivers: &Receivers,
     origins: &Origins,
     plan: &ShadePlan,
@@ -284,12 +451,37 @@ fn sum_vsgls(
         };
         let sums = block::vsgl(&vsgls.diffuse[j], specular, &receivers, plan);
         let open = match plan.occlusion {
-            OcclusionMethod::None => [1.0; LANES],
+            OcclusionMethod::None | OcclusionMethod::Sampled => [1.0; LANES],
             OcclusionMethod::Rays => open(scene, &vsgls.target[j], origins, &sums, plan.masks),
         };
         total.add_open(&sums, &open);
     }
     total
+}
+
+/// Sums without shadows, and what each light brings.
+#[multiversion(targets("x86_64+avx2+fma", "aarch64+neon"))]
+fn sum_sampled(
+    vsgls: &Vsgls,
+    lights: StepBy<Range<usize>>,
+    receivers: &Receivers,
+    colors: &ColorLanes,
+    plan: &ShadePlan,
+) -> (Sums, Contributions) {
+    let mut total = Sums::default();
+    let mut contributions = Contributions::default();
+    let receivers = *receivers;
+    for j in lights {
+        let specular = if plan.glossy_senders {
+            vsgls.specular.get(j)
+        } else {
+            None
+        };
+        let sums = block::vsgl(&vsgls.diffuse[j], specular, &receivers, plan);
+        contributions.add(&sums, colors);
+        total.add_open(&sums, &[1.0; LANES]);
+    }
+    (total, contributions)
 }
 
 #[multiversion(targets("x86_64+avx2+fma", "aarch64+neon"))]
@@ -306,7 +498,7 @@ fn sum_vpls(
     for (texel, point) in points {
         let sums = block::vpl(point, &receivers, plan);
         let open = match plan.occlusion {
-            OcclusionMethod::None => [1.0; LANES],
+            OcclusionMethod::None | OcclusionMethod::Sampled => [1.0; LANES],
             OcclusionMethod::Rays => open(
                 scene,
                 &vsgl_core::phase::cluster::target(scene, rsm, *texel),

@@ -1,4 +1,4 @@
-//! needs: data/index, data/point_sender, data/vsgls_read, phase/direct, phase/reflect
+//! needs: data/index, data/point_sender, data/receivers, data/sums, data/vsgls_read, phase/direct, phase/interleave, phase/reflect, phase/sampled
 // Light to the eye from every sample: `direct` of the lights themselves, `vsgls` and `vpls` of one bounce. A dispatch for each
 // band of samples and each group of lights; sums wait in `waiting` for the next group, so that their order is that of the lights.
 
@@ -10,6 +10,10 @@ override RAYS: bool = true;
 override MASKS: bool = true;
 // Some of the virtual lights shine by themselves. They are the last, and their light is direct.
 override EMITTERS: bool = true;
+// Sums over a share of the lights stay in `waiting` for reconstruction.
+override LEAVES_SUMS: bool = false;
+// Rays are drawn later, by what lights bring.
+override SAMPLED: bool = false;
 override EMISSION: u32 = 0u;
 override DIFFUSE: u32 = 0u;
 override GLOSSY: u32 = 0u;
@@ -18,7 +22,7 @@ struct Params {
     eye: vec3<f32>,
     // By how much ray origins are lifted at least.
     lift: f32,
-    // All samples; those of this dispatch.
+    // All samples; those of this dispatch, in the order of shares.
     count: u32,
     first: u32,
     end: u32,
@@ -29,6 +33,11 @@ struct Params {
     end_light: u32,
     // The first texel that shines by itself, where texels are lights.
     first_emitter: u32,
+    // Samples in a row and rows, and shares of the lights along a side.
+    width: u32,
+    height: u32,
+    side: u32,
+    padding: u32,
 }
 
 struct Count {
@@ -49,64 +58,16 @@ struct Count {
 @group(0) @binding(9) var<uniform> clusters: Count;
 // Columns direct, indirect_diffuse, indirect_glossy.
 @group(0) @binding(10) var<storage, read_write> radiance_out: array<f32>;
-// Sums of the samples of this band over the lights so far.
+// Sums of the samples of this band over the lights so far; those of all samples where they stay: columns sums, emitted.
 @group(0) @binding(11) var<storage, read_write> waiting: array<vec4<f32>>;
 @group(0) @binding(12) var texels: texture_2d_array<u32>;
 @group(0) @binding(13) var<uniform> columns: TexelLayout;
-
-// Place of the tangents among the columns.
-const TANGENT: u32 = 4u;
-
-fn receiver_at(i: u32) -> Receiver {
-    let normal = receiver[params.count + i];
-    let position = receiver[i].xyz;
-    var alpha = 1.0;
-    if GLOSSY_RECEIVERS {
-        alpha = receiver[3u * params.count + i].w;
-    }
-    var tangent = vec4(0.0);
-    if ANISOTROPIC_RECEIVERS {
-        tangent = receiver[TANGENT * params.count + i];
-    }
-    return Receiver(
-        position,
-        normal.xyz,
-        vec_normalize(params.eye - position),
-        receiver[2u * params.count + i].w,
-        normal.w,
-        alpha,
-        tangent.xyz,
-        tangent.w,
-    );
-}
-
-fn colors_at(i: u32) -> Colors {
-    var f0 = vec3(0.0);
-    var f90 = 0.0;
-    if GLOSSY_RECEIVERS {
-        f0 = receiver[3u * params.count + i].xyz;
-        f90 = grazing[i];
-    }
-    return Colors(receiver[2u * params.count + i].xyz, f0, f90);
-}
 
 fn write(column: u32, i: u32, value: vec3<f32>) {
     let at = 3u * (column * params.count + i);
     radiance_out[at] = value.x;
     radiance_out[at + 1u] = value.y;
     radiance_out[at + 2u] = value.z;
-}
-
-// Where shadow rays of a sample start.
-fn origin_at(i: u32, position: vec3<f32>) -> vec3<f32> {
-    let facing = surface_geometric_normal(triangle[i], params.eye - position);
-    return position + facing * surface_lift(params.lift, position);
-}
-
-// Whether light reaches a sample from a point of a surface.
-fn is_open(origin: vec3<f32>, position: vec3<f32>, normal: vec3<f32>) -> bool {
-    let end = position + normal * surface_lift(params.lift, position);
-    return !traverse_any_hit(params.nodes, ray_new(origin, end - origin), 1.0);
 }
 
 @compute @workgroup_size(INVOCATIONS)
@@ -175,39 +136,91 @@ fn write_indirect(i: u32, total: Sums) {
     }
 }
 
+// What waits of a sample before this dispatch.
+fn left_before(i: u32, emitting: bool) -> Left {
+    var left: Left;
+    if LEAVES_SUMS {
+        if params.first_light > 0u {
+            left = left_at(i, emitting);
+        }
+    } else {
+        left.sums = sums_before(i);
+    }
+    return left;
+}
+
+// What is left of a sample after this dispatch.
+fn leave(i: u32, left: Left, emitting: bool) {
+    if !LEAVES_SUMS {
+        write_sums(i, left.sums, emitting);
+        return;
+    }
+    leave_at(i, left, emitting);
+    if EMITTERS && !emitting && params.first_light == 0u {
+        leave_at(i, Left(), true);
+    }
+}
+
 @compute @workgroup_size(INVOCATIONS)
 fn vsgls(
     @builtin(global_invocation_id) invocation: vec3<u32>,
     @builtin(num_workgroups) groups: vec3<u32>,
 ) {
-    let i = params.first + item_index(invocation, groups);
-    if i >= params.end {
+    let index = params.first + item_index(invocation, groups);
+    if index >= params.end {
         return;
     }
-    var total = sums_before(i);
+    var i = index;
+    var share = 0u;
+    var stride = 1u;
+    if LEAVES_SUMS {
+        let shares = Shares(params.side, params.width, params.height);
+        let place = shares_sample(shares, index);
+        if place.x >= params.width || place.y >= params.height {
+            return;
+        }
+        i = place.y * params.width + place.x;
+        share = shares_share(shares, place);
+        stride = shares_count(shares);
+    }
     var emitting = false;
+    let before = min(params.first_light, clusters.value);
+    if EMITTERS && before > share {
+        // The last light of the share before this dispatch.
+        let last = share + (before - 1u - share) / stride * stride;
+        emitting = triangle[i] != NO_TRIANGLE && all(diffuse_vsgl_at(last).light == vec3(0.0));
+    }
+    var left = left_before(i, emitting);
     if triangle[i] != NO_TRIANGLE {
         let seen = receiver_at(i);
         var origin = vec3(0.0);
         if RAYS {
             origin = origin_at(i, seen.position);
         }
+        var colors: Colors;
+        if SAMPLED {
+            colors = colors_at(i);
+        }
         let surfaces = surfaces_of(seen);
         let capacity = params.lights;
-        let before = min(params.first_light, clusters.value);
-        if EMITTERS && before > 0u {
-            emitting = all(diffuse_vsgl_at(before - 1u).light == vec3(0.0));
-        }
-        for (var j = params.first_light; j < min(params.end_light, clusters.value); j++) {
+        let first = shares_first(params.first_light, share, stride);
+        for (var j = first; j < min(params.end_light, clusters.value); j += stride) {
             let light = diffuse_vsgl_at(j);
             if EMITTERS && !emitting && all(light.light == vec3(0.0)) {
-                write_indirect(i, total);
-                total = Sums();
+                if LEAVES_SUMS {
+                    leave_at(i, left, false);
+                } else {
+                    write_indirect(i, left.sums);
+                }
+                left = Left();
                 emitting = true;
             }
             var sums = reflect_diffuse(light, seen, surfaces);
             if GLOSSY_SENDERS {
                 sums = reflect_specular(sums, specular_vsgl_at(j, capacity), seen, surfaces);
+            }
+            if SAMPLED {
+                left.total += sampled_contribution(colors, sums.diffuse, sums.near, sums.grazing);
             }
             if RAYS {
                 if !sums_lit(sums) {
@@ -218,10 +231,10 @@ fn vsgls(
                     continue;
                 }
             }
-            total = sums_add(total, sums);
+            left.sums = sums_add(left.sums, sums);
         }
     }
-    write_sums(i, total, emitting);
+    leave(i, left, emitting);
 }
 
 @compute @workgroup_size(INVOCATIONS)

@@ -10,8 +10,10 @@ mod importance;
 mod nearest;
 mod partition;
 pub(crate) mod pdf;
+pub(crate) mod reconstruct;
 pub(crate) mod resolve;
 pub(crate) mod rsm;
+mod sampled;
 pub(crate) mod shade;
 mod sort;
 mod whole;
@@ -35,6 +37,7 @@ pub fn kernels(plan: &Plan) -> Vec<KernelId> {
         clusters = bounce.cluster.is_some();
     }
     kernels.extend(shade::kernels(&plan.shade, clusters));
+    kernels.extend(plan.reconstruct.iter().flat_map(reconstruct::kernels));
     kernels.extend(resolve::kernels(plan));
     kernels
 }

@@ -1,6 +1,7 @@
 //! Light to the eye.
 
 use super::flag;
+use super::sampled::{self, Sampled};
 use crate::backend::WgpuBackend;
 use crate::context::{Context, is_software};
 use crate::kernel::{Constant, Kernel, KernelId};
@@ -14,6 +15,7 @@ use vsgl_core::Result;
 use vsgl_core::backend::{Senders, ShadeInputs};
 use vsgl_core::data::{LightRecord, Radiance};
 use vsgl_core::geom::LEAF;
+use vsgl_core::phase::interleave::Shares;
 use vsgl_core::plan::ShadePlan;
 use vsgl_core::settings::{DiffuseForm, Emission, GlossyForm, OcclusionMethod};
 
@@ -25,10 +27,10 @@ const PAIRS_SOFTWARE: u64 = 1 << 23;
 const RAY_COST: u64 = 8;
 /// Lights in one dispatch.
 const LIGHTS_GPU: u32 = 1 << 16;
-const LIGHTS_SOFTWARE: u32 = 1 << 14;
+pub(super) const LIGHTS_SOFTWARE: u32 = 1 << 14;
 /// Lavapipe leaves a shader's loops after so many rounds in all, those of rays through the hierarchy included, without a
 /// word.
-const ROUNDS_SOFTWARE: u64 = 65_535;
+pub(super) const ROUNDS_SOFTWARE: u64 = 65_535;
 /// Lights in one dispatch with rays through a hierarchy of any size: a ray may take eight thousand rounds.
 const LIGHTS_SOFTWARE_RAYS: u64 = 1 << 3;
 
@@ -36,25 +38,33 @@ const LIGHTS_SOFTWARE_RAYS: u64 = 1 << 3;
 /// ends before the driver leaves the loop. Few dispatches are better: for each, lavapipe keeps the private memory of all
 /// invocations until the process ends.
 fn lights_software_rays(nodes: u64) -> u32 {
-    let ray = nodes * (1 + LEAF as u64);
     let most = u64::from(LIGHTS_SOFTWARE);
-    (ROUNDS_SOFTWARE / (4 + ray)).clamp(LIGHTS_SOFTWARE_RAYS, most) as u32
+    rays_in(ROUNDS_SOFTWARE, nodes).clamp(LIGHTS_SOFTWARE_RAYS, most) as u32
+}
+
+/// Rays that end within so many rounds, whatever they meet.
+pub(super) fn rays_in(rounds: u64, nodes: u64) -> u64 {
+    rounds / (4 + nodes * (1 + LEAF as u64))
 }
 
 /// Twin of `Params` in `entry/shade.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
-struct Params {
-    eye: [f32; 3],
-    lift: f32,
-    count: u32,
-    first: u32,
-    end: u32,
-    nodes: u32,
-    lights: u32,
-    first_light: u32,
-    end_light: u32,
-    first_emitter: u32,
+pub(super) struct Params {
+    pub(super) eye: [f32; 3],
+    pub(super) lift: f32,
+    pub(super) count: u32,
+    pub(super) first: u32,
+    pub(super) end: u32,
+    pub(super) nodes: u32,
+    pub(super) lights: u32,
+    pub(super) first_light: u32,
+    pub(super) end_light: u32,
+    pub(super) first_emitter: u32,
+    pub(super) width: u32,
+    pub(super) height: u32,
+    pub(super) side: u32,
+    pub(super) padding: u32,
 }
 
 /// Twin of `Params` in `entry/senders.wgsl`.
@@ -86,8 +96,11 @@ pub(crate) struct Shading {
     band: u32,
     /// Direct lights, and lights of a bounce, in one dispatch.
     groups: [u32; 2],
-    /// Sums between dispatches.
-    waiting: Pooled,
+    /// Sums between dispatches, unless they are columns of the result.
+    waiting: Option<Pooled>,
+    /// Samples in the order of shares.
+    indices: u32,
+    sampled: Option<Sampled>,
 }
 
 /// The indirect part.
@@ -111,11 +124,14 @@ impl Shading {
         let gbuffer = inputs.gbuffer;
         let count = gbuffer.len("triangle");
         let bounce = Bounce::new(context, &inputs.senders, plan)?;
-        let (diffuse, glossy) = match plan.bounce {
+        let leaves_sums = plan.leaves_sums();
+        let (diffuse, glossy) = match plan.bounce && !leaves_sums {
             false => (0, 0),
             true if plan.glossy_receivers => (count, count),
             true => (count, 0),
         };
+        let sums = if leaves_sums { count } else { 0 };
+        let emitted = if plan.emitters { sums } else { 0 };
         let radiance = WgpuRes::<Radiance>::new(
             context,
             gbuffer.head.clone(),
@@ -123,6 +139,8 @@ impl Shading {
                 ("direct", 12, count),
                 ("indirect_diffuse", 12, diffuse),
                 ("indirect_glossy", 12, glossy),
+                ("sums", 48, sums),
+                ("emitted", 48, emitted),
             ],
         )?;
         let lights: Vec<LightRecord> = inputs.lights.iter().map(LightRecord::from).collect();
@@ -133,11 +151,25 @@ impl Shading {
         }
         let cost = match plan.occlusion {
             OcclusionMethod::None => 1,
+            // Every light is looked at twice.
+            OcclusionMethod::Sampled => 2,
             OcclusionMethod::Rays => RAY_COST,
         };
         let software = is_software(context.info());
         let pairs = if software { PAIRS_SOFTWARE } else { PAIRS_GPU };
-        let lights_all = bounce.as_ref().map_or(0, |b| u64::from(b.lights)) + lights.len() as u64;
+        let shares = Shares {
+            side: if leaves_sums { plan.interleave } else { 1 },
+            width: gbuffer.head[0],
+            height: gbuffer.head[1],
+        };
+        let stride = shares.count();
+        let lights_each = bounce.as_ref().map_or(0, |b| b.lights.div_ceil(stride));
+        let rays_each = if plan.occlusion == OcclusionMethod::Sampled {
+            u64::from(plan.rays) * RAY_COST
+        } else {
+            0
+        };
+        let lights_all = u64::from(lights_each) + lights.len() as u64 + rays_each;
         let least = match submits {
             Submits::Host if software => count.max(1),
             _ => 1 << 12,
@@ -148,10 +180,20 @@ impl Shading {
             (true, false) => LIGHTS_SOFTWARE,
             (true, true) => lights_software_rays(inputs.scene.len("node")),
         };
-        let groups = [group(true), group(plan.occlusion == OcclusionMethod::Rays)];
+        let many = group(plan.occlusion == OcclusionMethod::Rays);
+        let groups = [group(true), many.saturating_mul(stride)];
         let waits = bounce.as_ref().is_some_and(|b| b.lights > groups[1]);
-        let waiting = context.buffer("sums of a band", if waits { 48 * band } else { 48 })?;
+        let waiting = if leaves_sums {
+            None
+        } else {
+            Some(context.buffer("sums of a band", if waits { 48 * band } else { 48 })?)
+        };
+        let sampled = (leaves_sums && plan.occlusion == OcclusionMethod::Sampled)
+            .then(|| Sampled::new(context, inputs.scene.len("node"), plan, software))
+            .transpose()?;
         Ok(Self {
+            indices: shares.indices(),
+            sampled,
             radiance,
             params: Params {
                 eye: inputs.view.camera.eye.to_array(),
@@ -164,6 +206,10 @@ impl Shading {
                 first_light: 0,
                 end_light: 0,
                 first_emitter: first_emitter(&inputs.senders, plan),
+                width: shares.width,
+                height: shares.height,
+                side: shares.side,
+                padding: 0,
             },
             direct: context.kernel("entry/shade", "direct", &direct_constants(plan))?,
             direct_lights,
@@ -176,7 +222,7 @@ impl Shading {
 
     /// Samples that are recorded at once, with the share that is done before them.
     pub(crate) fn bands(&self) -> Vec<(f32, Range<u32>)> {
-        let (count, band) = (self.params.count, self.band as usize);
+        let (count, band) = (self.indices, self.band as usize);
         (0..count)
             .step_by(band)
             .map(|first| {
@@ -193,7 +239,7 @@ impl Shading {
         inputs: &ShadeInputs<'_, WgpuBackend>,
         band: Range<u32>,
     ) -> Result<()> {
-        let samples = Groups::Items(u64::from(band.end - band.start));
+        let indices = Groups::Items(u64::from(band.end - band.start));
         let params = Params {
             first: band.start,
             end: band.end,
@@ -210,10 +256,24 @@ impl Shading {
             ("grazing", gbuffer.bind("grazing")),
             ("direct_light", Binding::Buffer(&self.direct_lights)),
             ("radiance_out", self.radiance.bind("direct")),
-            ("waiting", Binding::Buffer(&self.waiting)),
+            (
+                "waiting",
+                match &self.waiting {
+                    Some(buffer) => Binding::Buffer(buffer),
+                    None => self.radiance.bind("sums"),
+                },
+            ),
         ];
-        for params in by_lights(params, self.groups[0]) {
-            recorder.dispatch(&self.direct, &params, &bound, samples)?;
+        // There are as many indices as samples, or more.
+        let rows = Params {
+            end: band.end.min(params.count),
+            ..params
+        };
+        if rows.first < rows.end {
+            let samples = Groups::Items(u64::from(rows.end - rows.first));
+            for params in by_lights(rows, self.groups[0]) {
+                recorder.dispatch(&self.direct, &params, &bound, samples)?;
+            }
         }
         let Some(bounce) = &self.bounce else {
             return Ok(());
@@ -244,7 +304,10 @@ impl Shading {
             ..params
         };
         for params in by_lights(params, self.groups[1]) {
-            recorder.dispatch(&bounce.kernel, &params, &bound, samples)?;
+            recorder.dispatch(&bounce.kernel, &params, &bound, indices)?;
+        }
+        if let Some(sampled) = &self.sampled {
+            sampled.record(recorder, &params, &bound, indices)?;
         }
         Ok(())
     }
@@ -334,6 +397,9 @@ pub(crate) fn kernels(plan: &ShadePlan, clusters: bool) -> Vec<KernelId> {
     let mut kernels = vec![shade("direct", &direct_constants(plan))];
     if plan.bounce && clusters {
         kernels.push(shade("vsgls", &constants(plan)));
+        if plan.occlusion == OcclusionMethod::Sampled {
+            kernels.push(sampled::kernel(plan));
+        }
     } else if plan.bounce {
         let made = sender_constants(plan.glossy_senders, plan.anisotropic_senders);
         kernels.push(KernelId::new("entry/senders", "senders", &made));
@@ -349,6 +415,8 @@ fn constants(plan: &ShadePlan) -> Vec<Constant> {
         ("EMITTERS", flag(plan.emitters)),
         ("RAYS", flag(plan.occlusion == OcclusionMethod::Rays)),
         ("MASKS", flag(plan.masks)),
+        ("LEAVES_SUMS", flag(plan.leaves_sums())),
+        ("SAMPLED", flag(plan.occlusion == OcclusionMethod::Sampled)),
     ]);
     constants
 }
@@ -408,7 +476,11 @@ mod tests {
                 lights,
                 first_light,
                 end_light,
-                first_emitter
+                first_emitter,
+                width,
+                height,
+                side,
+                padding
             }
         );
         twins!(
