@@ -187,6 +187,21 @@ fn shading(c: &mut Criterion) {
             },
         ),
         (
+            "unoccluded, shares of 4x4",
+            Settings {
+                interleave: 4,
+                ..unoccluded.clone()
+            },
+        ),
+        (
+            "8 rays drawn, shares of 4x4",
+            Settings {
+                interleave: 4,
+                occlusion: OcclusionMethod::Sampled,
+                ..unoccluded.clone()
+            },
+        ),
+        (
             "paper-2016",
             Settings {
                 lights: 256,

@@ -52,6 +52,8 @@ fn any_number_of_threads_and_any_run() {
         "clustering=filtered-box occlusion=none",
         "clustering=nearest-world occlusion=none",
         "method=vpl rsm=32 occlusion=rays",
+        "interleave=4",
+        "interleave=2 occlusion=sampled",
     ] {
         for (scene, aa) in [("cornell", 1), ("many-lights:3", 2)] {
             // Sizes that no piece of work divides.

@@ -85,6 +85,8 @@ pub(crate) fn common() -> Vec<(String, Settings)> {
         "clustering=filtered-box",
         "clustering=filtered-original",
         "clustering=nearest-world",
+        "interleave=4",
+        "interleave=2 occlusion=sampled",
     ] {
         all.push((words.into(), with(Settings::default(), words)));
     }

@@ -213,7 +213,7 @@ fn every_function_has_a_twin_and_a_test() {
 
 /// Plain functions of whole records, such as a map, a camera or the sums of a cluster, and of indices: every pixel, cluster
 /// and round of the phases compares them.
-const COMPARED_AS_PHASES: [&str; 23] = [
+const COMPARED_AS_PHASES: [&str; 28] = [
     "cluster_lights",
     "cluster_stretched",
     "camera_map_sample",
@@ -231,7 +231,12 @@ const COMPARED_AS_PHASES: [&str; 23] = [
     "pdf_level_count",
     "pdf_level_start",
     "pdf_top_level",
+    "reconstruct_ahead",
     "rsm_ray",
+    "sampled_offset",
+    "shares_count",
+    "shares_sample",
+    "shares_share",
     "square_record",
     "sum_merge",
     "sum_scaled",

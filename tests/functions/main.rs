@@ -13,6 +13,7 @@ mod lobes;
 mod math;
 mod sets;
 mod shading;
+mod shares;
 mod table;
 
 use self::arguments::rows;
@@ -33,6 +34,7 @@ fn entries() -> Vec<Entry> {
     all.extend(glossy::entries());
     all.extend(shading::entries());
     all.extend(sets::entries());
+    all.extend(shares::entries());
     all
 }
 

@@ -186,6 +186,10 @@ fn equal_backends_agree_in_every_phase_of_every_plan() {
             shot().with("method=vpl rsm=8"),
             "gbuffer rsm shade resolve frame",
         ),
+        (
+            shot().with("interleave=2 occlusion=sampled"),
+            "gbuffer rsm cluster shade reconstruct resolve frame",
+        ),
         (dark, "gbuffer shade resolve frame"),
     ] {
         let steps = run(&shot, None);
@@ -201,13 +205,14 @@ fn equal_backends_agree_in_every_phase_of_every_plan() {
 fn a_fault_shows_in_its_phase_and_in_the_frame_alone() {
     let shot = Shot::sample("cornell")
         .size(16, 9)
-        .with("clustering=filtered");
+        .with("clustering=filtered interleave=2");
     for fault in [
         Phase::GBuffer,
         Phase::Rsm,
         Phase::Pdf,
         Phase::Cluster,
         Phase::Shade,
+        Phase::Reconstruct,
         Phase::Resolve,
     ] {
         let steps = run(&shot, Some(fault));

@@ -9,3 +9,4 @@ mod energy;
 mod furnace;
 mod invariance;
 mod lights;
+mod shares;

@@ -2,3 +2,4 @@
 
 mod pruning;
 mod rules;
+mod shares;

@@ -17,24 +17,42 @@ struct Limits {
     rays: [f64; 2],
 }
 
+/// What shares of 4x4 may add \[percentage points\], and eight rays from a pixel may multiply by.
+const SHARES: f64 = 2.0;
+const DRAWN: f64 = 1.2;
+
 fn view(name: &str, limits: &Limits) {
     let Some(_) = assets("ground-truth", &format!("the view {name}")) else {
         return;
     };
     let root = assets("", name).expect("the folder of the ground truth is in it");
-    for (occlusion, kind, limit) in [
-        ("none", "indirect_unoccluded", limits.none),
-        ("rays", "indirect", limits.rays),
-    ] {
-        let image = shot(&root, name)
-            .with(&format!("occlusion={occlusion}"))
-            .image();
+    let render = |settings: &str, kind: &str| {
+        let image = shot(&root, name).with(settings).image();
         let test = Plane::luminance(image.width, image.height, &image.indirect()).expect("a plane");
         let errors = compare(&test, &reference(&root, name, kind), 8)
             .expect("pictures of one size")
             .expect("blocks with light");
         let [mape, energy] = [Metric::Mape, Metric::Bias].map(|m| errors.get(m));
-        println!("{name} {occlusion}: MAPE {mape:.2} %, energy {energy:+.2} %");
+        println!("{name} {settings}: MAPE {mape:.2} %, energy {energy:+.2} %");
+        (image, mape, energy)
+    };
+    for (occlusion, kind, limit) in [
+        ("none", "indirect_unoccluded", limits.none),
+        ("rays", "indirect", limits.rays),
+    ] {
+        let (image, mape, energy) = render(&format!("occlusion={occlusion}"), kind);
+        let (_, shares, _) = render(&format!("occlusion={occlusion} interleave=4"), kind);
+        assert!(
+            shares <= mape + SHARES,
+            "{name} {occlusion}: MAPE {shares:.2} % by shares, {mape:.2} % by all lights"
+        );
+        if occlusion == "rays" {
+            let (_, drawn, _) = render("occlusion=sampled", kind);
+            assert!(
+                drawn <= DRAWN * mape,
+                "{name}: MAPE {drawn:.2} % by eight rays, {mape:.2} % by all"
+            );
+        }
         assert!(mape <= limit[0], "{name} {occlusion}: MAPE {mape:.2} %");
         assert!(
             energy.abs() <= limit[1],
