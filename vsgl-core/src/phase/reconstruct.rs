@@ -61,12 +61,12 @@ impl Patch {
         let turn = 0.5 * apart.dot(apart);
         let facing = (1.0 - turn * (1.0 / TURN_MAX)).max(0.0);
         let diffuse = plane * (facing * facing);
-        // A lobe follows its normal: what is a small turn for a rough surface is another reflection for a smooth one.
+        // Not less for smooth surfaces, whose reflections turn faster: of each share the one best neighbour would be taken, and
+        // a curved metal would be tiled.
         let product = (self.alpha * other.alpha).max(f32::MIN_POSITIVE);
-        let swing = 1.0 + 2.0 * turn / product;
         let difference = self.alpha - other.alpha;
         let rough = 1.0 + ROUGHNESS_FALL * (difference * difference / product);
-        (diffuse, diffuse / (swing * swing * rough))
+        (diffuse, diffuse / rough)
     }
 }
 

@@ -22,10 +22,9 @@ fn patch_likeness(own: Patch, other: Patch) -> vec2<f32> {
     let facing = max(1.0 - turn * (1.0 / TURN_MAX), 0.0);
     let diffuse = plane * (facing * facing);
     let product = max(own.alpha * other.alpha, F32_MIN_POSITIVE);
-    let swing = 1.0 + 2.0 * turn / product;
     let difference = own.alpha - other.alpha;
     let rough = 1.0 + ROUGHNESS_FALL * (difference * difference / product);
-    return vec2(diffuse, diffuse / (swing * swing * rough));
+    return vec2(diffuse, diffuse / rough);
 }
 
 fn reconstruct_tent(side: u32, away: i32) -> f32 {
