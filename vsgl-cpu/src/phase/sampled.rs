@@ -1,5 +1,10 @@
 //! A few rays from each of sixteen samples, to lights chosen by what they bring.
 
+#![expect(
+    clippy::needless_range_loop,
+    reason = "one index runs over several arrays side by side"
+)]
+
 use super::block::{LANES, Sums};
 use super::shade::{Origins, lanes_open};
 use std::array::from_fn;
