@@ -1,28 +1,38 @@
-//! Times of a GPU phase by phase, at the setting of Tokuyoshi 2016, as a page of Markdown. Run by `scripts/gpu-report`.
+//! Times of a GPU phase by phase, at the setting of Tokuyoshi 2016 and at every variant of it, as a page of Markdown. Run by
+//! `scripts/gpu-report`.
 
 mod operations;
 mod page;
+mod variants;
 
 use page::{Page, Row};
 use std::process::ExitCode;
-use std::time::Duration;
-use vsgl_core::backend::{Backend, PdfInputs, Senders, ShadeInputs};
+use std::time::{Duration, Instant};
+use variants::Variant;
+use vsgl_core::backend::Backend;
 use vsgl_core::data::SceneData;
 use vsgl_core::plan::Plan;
-use vsgl_core::render::{Phase, View};
-use vsgl_core::scene::{SceneFacts, samples};
-use vsgl_core::settings::{Clustering, OcclusionMethod, Settings};
+use vsgl_core::render::{Phase, View, render};
+use vsgl_core::scene::{Scene, SceneFacts, samples};
 use vsgl_core::{Error, Result};
-use vsgl_wgpu::{Timings, WgpuBackend, WgpuOptions, is_software};
+use vsgl_wgpu::{Clock, Timings, WgpuBackend, WgpuOptions, WgpuRes, is_software};
 
-const USAGE: &str = "gpu-report [--adapter NAME] [--size WxH]
-  NAME is a part of the adapter's name; without, the best one is taken. WxH is 1920x1088 unless given, and 160x90 on a
-  software driver.";
-/// Runs of a phase whose median is taken, after one that is not counted.
-const RUNS: usize = 9;
+const USAGE: &str = "gpu-report [--adapter NAME] [--size WxH] [--quick]
+  NAME is a part of the adapter's name; without, the best one is taken. WxH is 1920x1088 unless given. --quick takes 64x36
+  pixels, 64 lights and small maps, as is done on a software driver.";
+
+/// How much is measured.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Scale {
+    pub(crate) size: (u32, u32),
+    /// Smaller maps and fewer lights.
+    pub(crate) quick: bool,
+    /// Runs whose median is taken, after one that is not counted.
+    pub(crate) runs: usize,
+}
 
 fn main() -> ExitCode {
-    match arguments().and_then(|(adapter, size)| run(adapter, size)) {
+    match arguments().and_then(run) {
         Ok(page) => {
             println!("{page}");
             ExitCode::SUCCESS
@@ -38,171 +48,142 @@ fn main() -> ExitCode {
     }
 }
 
-type Size = (u32, u32);
+#[derive(Debug, Default)]
+struct Arguments {
+    adapter: Option<String>,
+    size: Option<(u32, u32)>,
+    quick: bool,
+}
 
-fn arguments() -> Result<(Option<String>, Option<Size>)> {
-    let (mut adapter, mut size) = (None, None);
+fn arguments() -> Result<Arguments> {
+    let mut found = Arguments::default();
     let mut words = std::env::args().skip(1);
     while let Some(word) = words.next() {
-        let value = words.next().unwrap_or_default();
         match &*word {
-            "--adapter" => adapter = Some(value),
+            "--adapter" => found.adapter = words.next(),
+            "--quick" => found.quick = true,
             "--size" => {
+                let value = words.next().unwrap_or_default();
                 let parsed = value
                     .split_once('x')
                     .and_then(|(w, h)| Some((w.parse().ok()?, h.parse().ok()?)));
-                size =
+                found.size =
                     Some(parsed.ok_or_else(|| Error::setting("size", value, "give WIDTHxHEIGHT"))?);
             }
             _ => return Err(Error::setting("arguments", word, USAGE)),
         }
     }
-    Ok((adapter, size))
+    Ok(found)
 }
 
-fn run(adapter: Option<String>, size: Option<Size>) -> Result<Page> {
+fn run(arguments: Arguments) -> Result<Page> {
     let options = WgpuOptions {
         timing: true,
-        adapter,
+        adapter: arguments.adapter,
         ..WgpuOptions::default()
     };
     let gpu = WgpuBackend::headless(&options)?;
-    let software = is_software(gpu.context().info());
-    let size = size.unwrap_or(if software { (160, 90) } else { (1920, 1088) });
-    let mut page = Page::new(gpu.context().info().clone(), size);
+    let quick = arguments.quick || is_software(gpu.context().info());
+    let size = if quick { (64, 36) } else { (1920, 1088) };
+    let scale = Scale {
+        size: arguments.size.unwrap_or(size),
+        quick,
+        runs: if quick { 1 } else { 9 },
+    };
+    let mut page = Page::new(gpu.context().info().clone(), scale);
     for sample in ["cornell", "columns"] {
-        scene(&gpu, sample, size, &mut page)?;
+        let scene = samples::by_name(sample)?;
+        let subject = Subject {
+            gpu: &gpu,
+            data: gpu.upload(SceneData::new(&scene))?,
+            view: View::new(scene.cameras[0].1, scale.size.0, scale.size.1)?,
+            scene,
+            runs: scale.runs,
+        };
+        for variant in variants::all(scale.quick) {
+            page.add(subject.row(sample, &variant)?);
+        }
     }
     Ok(page)
 }
 
-/// Adds the rows of one scene.
-fn scene(gpu: &WgpuBackend, sample: &'static str, size: Size, page: &mut Page) -> Result<()> {
-    let scene = samples::by_name(sample)?;
-    let data = gpu.upload(SceneData::new(&scene))?;
-    let view = View::new(scene.cameras[0].1, size.0, size.1)?;
-    let facts = SceneFacts::new(&scene, &scene.lights, &view.camera);
-    let plan = |clustering, occlusion| {
-        let settings = Settings {
-            clustering,
-            occlusion,
-            ..Settings::default()
-        };
-        Plan::new(&facts, &settings)
-    };
-    let partition = plan(Clustering::Partition, OcclusionMethod::None)?;
-    let filtered = plan(Clustering::Filtered, OcclusionMethod::None)?;
-    let bounces = [&partition, &filtered].map(|plan| plan.bounce.as_ref());
-    let [Some(exact), Some(sampled)] = bounces else {
-        return Err(Error::setting("scene", sample, "the samples are lit"));
-    };
-    let mut add =
-        |what: &str, phases: &[Phase], work: &mut dyn FnMut() -> Result<()>| -> Result<Duration> {
-            let (time, clock) = median(gpu, phases, work)?;
-            page.add(Row {
-                scene: sample,
-                what: what.to_owned(),
-                time,
-                clock,
-                note: String::new(),
-            });
-            Ok(time)
-        };
+struct Subject<'a> {
+    gpu: &'a WgpuBackend,
+    data: WgpuRes<SceneData>,
+    view: View,
+    scene: Scene,
+    runs: usize,
+}
 
-    add("G-buffer by rays", &[Phase::GBuffer], &mut || {
-        gpu.gbuffer(&data, &view, &partition.gbuffer).map(drop)
-    })?;
-    add("RSM 512² by rays", &[Phase::Rsm], &mut || {
-        gpu.rsm(&data, &scene.lights, &exact.rsm).map(drop)
-    })?;
-    let rsm = gpu.rsm(&data, &scene.lights, &exact.rsm)?;
-    let gbuffer = gpu.gbuffer(&data, &view, &partition.gbuffer)?;
-    if let Some(cluster) = &exact.cluster {
-        add("1024 VSGLs by partition", &[Phase::Cluster], &mut || {
-            gpu.cluster(&data, &rsm, None, cluster).map(drop)
-        })?;
-    }
-    if let (Some(pdf), Some(cluster)) = (&sampled.pdf, &sampled.cluster) {
-        add(
-            "1024 VSGLs by filtered kernels",
-            &[Phase::Pdf, Phase::Cluster],
-            &mut || {
-                let inputs = PdfInputs {
-                    scene: &data,
-                    rsm: &rsm,
-                    gbuffer: &gbuffer,
-                    view: &view,
-                };
-                let pdf = gpu.pdf(&inputs, pdf)?;
-                gpu.cluster(&data, &rsm, Some(&pdf), cluster).map(drop)
-            },
-        )?;
-    }
-    let Some(cluster) = &exact.cluster else {
-        return Ok(());
-    };
-    let vsgls = gpu.cluster(&data, &rsm, None, cluster)?;
-    let pairs = f64::from(size.0) * f64::from(size.1) * 1024.0;
-    for occlusion in [OcclusionMethod::None, OcclusionMethod::Rays] {
-        let plan = plan(Clustering::Partition, occlusion)?;
-        let inputs = ShadeInputs {
-            scene: &data,
-            gbuffer: &gbuffer,
-            view: &view,
-            lights: &scene.lights,
-            senders: Senders::Vsgls(&vsgls),
+impl Subject<'_> {
+    fn row(&self, sample: &'static str, variant: &Variant) -> Result<Row> {
+        let facts = SceneFacts::new(&self.scene, &self.scene.lights, &self.view.camera);
+        let mut row = Row {
+            scene: sample,
+            what: variant.what.clone(),
+            phases: Vec::new(),
+            clock: Clock::Wall,
+            note: String::new(),
         };
-        let what = format!("shading, occlusion {occlusion}");
-        let (time, clock) = median(gpu, &[Phase::Shade], &mut || {
-            gpu.shade(&inputs, &plan.shade, &()).map(drop)
-        })?;
-        let rate = pairs / time.as_secs_f64();
-        let mut note = format!("{:.3} G pairs/s", rate * 1e-9);
-        if occlusion == OcclusionMethod::None {
+        // Not everything goes together, and the words say what does not.
+        let plan = match Plan::new(&facts, &variant.settings) {
+            Ok(plan) => plan,
+            Err(error) => {
+                row.note = error.to_string();
+                return Ok(row);
+            }
+        };
+        (row.phases, row.clock) = self.median(&plan)?;
+        let time = |wanted: Phase| row.phases.iter().find(|(p, _)| *p == wanted).map(|p| p.1);
+        if let (Some(time), true) = (time(Phase::Shade), variant.every_pair) {
+            let (width, height) = self.view.samples();
+            let lights = f64::from(variant.settings.lights);
+            let pairs = f64::from(width) * f64::from(height) * lights;
+            let rate = pairs / time.as_secs_f64();
             let each = operations::per_light(&plan)?;
-            note += &format!(
-                ", {each} float operations a pair: {:.3} TFLOP/s",
+            row.note = format!(
+                "{:.3} G pairs/s, {each} float operations a pair: {:.3} TFLOP/s",
+                rate * 1e-9,
                 rate * each as f64 * 1e-12
             );
         }
-        page.add(Row {
-            scene: sample,
-            what,
-            time,
-            clock,
-            note,
-        });
+        Ok(row)
     }
-    Ok(())
-}
 
-/// Median time of some phases over several runs, and the clock that it was taken by.
-fn median(
-    gpu: &WgpuBackend,
-    phases: &[Phase],
-    work: &mut dyn FnMut() -> Result<()>,
-) -> Result<(Duration, vsgl_wgpu::Clock)> {
-    work()?;
-    gpu.timings()?;
-    let mut times = Vec::new();
-    let mut clock = vsgl_wgpu::Clock::Wall;
-    for _ in 0..RUNS {
-        work()?;
-        let Some(Timings {
-            clock: by,
-            phases: all,
-        }) = gpu.timings()?
-        else {
-            return Err(Error::setting(
-                "timing",
-                "none",
-                "ask for it when the device is opened",
-            ));
+    /// Median times of the phases of a frame over several runs, and the clock that they were taken by.
+    fn median(&self, plan: &Plan) -> Result<(Vec<(Phase, Duration)>, Clock)> {
+        let start = Instant::now();
+        self.frame(plan)?;
+        // What takes long varies little.
+        let runs = if start.elapsed() > Duration::from_secs(2) {
+            self.runs.min(3)
+        } else {
+            self.runs
         };
-        clock = by;
-        let wanted = all.into_iter().filter(|(phase, _)| phases.contains(phase));
-        times.push(wanted.map(|(_, time)| time).sum());
+        let mut all: Vec<(Phase, Vec<Duration>)> = Vec::new();
+        let mut clock = Clock::Wall;
+        for _ in 0..runs {
+            let timings = self.frame(plan)?;
+            clock = timings.clock;
+            for (phase, time) in timings.phases {
+                match all.iter_mut().find(|(p, _)| *p == phase) {
+                    Some((_, times)) => times.push(time),
+                    None => all.push((phase, vec![time])),
+                }
+            }
+        }
+        let median = |(phase, mut times): (Phase, Vec<Duration>)| {
+            times.sort_unstable();
+            (phase, times[times.len() / 2])
+        };
+        Ok((all.into_iter().map(median).collect(), clock))
     }
-    times.sort_unstable();
-    Ok((times[RUNS / 2], clock))
+
+    fn frame(&self, plan: &Plan) -> Result<Timings> {
+        let lights = &self.scene.lights;
+        render(self.gpu, &self.data, lights, &self.view, plan, &())?;
+        self.gpu
+            .timings()?
+            .ok_or_else(|| Error::setting("timing", "none", "ask for it when the device is opened"))
+    }
 }

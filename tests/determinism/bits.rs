@@ -51,6 +51,7 @@ fn any_number_of_threads_and_any_run() {
         "clustering=whole rsm=50 emission=sg",
         "clustering=filtered-box occlusion=none",
         "clustering=nearest-world occlusion=none",
+        "clustering=filtered occlusion=none pdf=brsm camera_lights=100",
         "method=vpl rsm=32 occlusion=rays",
         "interleave=4",
         "interleave=2 occlusion=sampled",

@@ -183,6 +183,10 @@ fn equal_backends_agree_in_every_phase_of_every_plan() {
             "gbuffer rsm pdf cluster shade resolve frame",
         ),
         (
+            shot().with("clustering=filtered pdf=brsm camera_lights=40"),
+            "gbuffer rsm pdf cluster shade resolve frame",
+        ),
+        (
             shot().with("method=vpl rsm=8"),
             "gbuffer rsm shade resolve frame",
         ),

@@ -92,6 +92,7 @@ fn the_light_is_that_of_the_backend() {
         "occlusion=none",
         "occlusion=none clustering=filtered",
         "occlusion=none clustering=whole",
+        "occlusion=none clustering=filtered pdf=brsm camera_lights=300",
         "occlusion=rays",
     ] {
         let plan = plan(words);
