@@ -92,7 +92,8 @@ fn the_light_is_that_of_the_backend() {
         "occlusion=none",
         "occlusion=none clustering=filtered",
         "occlusion=none clustering=whole",
-        "occlusion=none clustering=filtered pdf=brsm camera_lights=300",
+        // Two draws from this density are further apart: more of them.
+        "occlusion=none clustering=filtered pdf=brsm camera_lights=300 lights=1024",
         "occlusion=rays",
     ] {
         let plan = plan(words);
