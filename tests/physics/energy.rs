@@ -3,8 +3,10 @@
 use std::f64::consts::TAU;
 use vsgl_core::data::{Rsm, Vsgls};
 use vsgl_core::glam::Vec3;
+use vsgl_core::math::vec::luminance;
 use vsgl_core::phase::rsm;
 use vsgl_core::scene::{Light, SpotLight};
+use vsgl_core::sg::lobe;
 use vsgl_tests::render::Shot;
 
 /// Flux through all texels of a spot of 1 W/sr, over the exact integral, minus one.
@@ -177,6 +179,39 @@ fn whole_maps_keep_all_flux_and_are_a_partition_of_one() {
             }
         }
     }
+}
+
+#[test]
+fn two_gaussians_carry_the_flux_of_a_map_each_from_its_own_place() {
+    let by = |settings: &str| {
+        let shot = Shot::sample("cornell").size(4, 4).with("rsm=64 lights=1");
+        let frame = shot.with(settings).frame();
+        (frame.rsm.expect("a bounce"), frame.vsgls.expect("clusters"))
+    };
+    let (map, cosine) = by("clustering=whole");
+    let (_, published) = by("clustering=whole emission=sg sharpness=toksvig variance=trace");
+    let (_, common) = by("clustering=partition emission=sg sharpness=toksvig variance=trace");
+    let (d, s) = (&published.diffuse[0], &published.specular[0]);
+    for channel in 0..3 {
+        let flux: f64 = map.diffuse.iter().map(|v| f64::from(v[channel])).sum();
+        let sent = f64::from(d.intensity[channel]) * f64::from(lobe::integral(d.sharpness));
+        assert!((sent / flux - 1.0).abs() < 1e-5, "{sent} of {flux}");
+    }
+    let specular: f64 = map.grazing.iter().map(|v| f64::from(v[3])).sum();
+    let sent =
+        f64::from(luminance(Vec3::from_array(s.f0))) * f64::from(lobe::integral(s.sharpness_lobe));
+    assert!((sent / specular - 1.0).abs() < 1e-5, "{sent} of {specular}");
+    // Each where the other emission has it too; the trace is twice the variance along an axis.
+    assert_eq!(d.position, cosine.diffuse[0].position);
+    assert_eq!(s.position, cosine.specular[0].position);
+    assert_ne!(d.position, s.position);
+    assert!((d.variance / cosine.diffuse[0].variance - 2.0).abs() < 1e-5);
+    // As published in 2016 both are at one place, between the two.
+    assert_eq!(common.diffuse[0].position, common.specular[0].position);
+    let place = |p: [f32; 3]| Vec3::from_array(p);
+    let (a, b) = (place(d.position), place(s.position));
+    let c = place(common.diffuse[0].position);
+    assert!((a.distance(c) + c.distance(b) - a.distance(b)).abs() < 1e-4 * a.distance(b));
 }
 
 #[test]

@@ -449,4 +449,15 @@ mod tests {
         }
         assert_eq!(settings, Preset::Paper2016.settings());
     }
+
+    #[test]
+    fn every_preset_is_what_its_entries_say() {
+        for preset in Preset::ALL {
+            let mut settings = Settings::default();
+            for (key, value) in preset.settings().entries() {
+                settings.set(key, &value).expect("own entries are accepted");
+            }
+            assert_eq!(settings, preset.settings(), "{preset}");
+        }
+    }
 }
