@@ -10,7 +10,7 @@ use vsgl_core::plan::{BouncePlan, PdfPlan, Plan, RsmPlan};
 use vsgl_core::render::{View, render};
 use vsgl_core::scene::{Light, PointLight, Scene, SceneFacts, samples};
 use vsgl_core::settings::{
-    Clustering, DiffuseForm, GlossyForm, OcclusionMethod, PdfMethod, Preset, Settings,
+    Clustering, DiffuseForm, GlossyForm, Method, OcclusionMethod, PdfMethod, Preset, Settings,
 };
 use vsgl_cpu::CpuBackend;
 
@@ -372,7 +372,33 @@ fn frames(c: &mut Criterion) {
     group.finish();
 }
 
+/// Throughput is paths.
+fn paths(c: &mut Criterion) {
+    let set = Set::new("cornell", 160, 90);
+    let mut group = c.benchmark_group("paths 160x90, 8 a pixel");
+    group.sample_size(10);
+    group.throughput(Throughput::Elements(160 * 90 * 8));
+    for (name, max_depth) in [("direct", 2), ("one bounce", 3), ("ten bounces", 12)] {
+        let plan = set.plan(&Settings {
+            method: Method::Path,
+            spp: 8,
+            max_depth,
+            ..Settings::default()
+        });
+        let path = plan.path.as_ref().expect("paths");
+        group.bench_function(name, |b| {
+            b.iter(|| {
+                let lights = &set.scene.lights;
+                set.backend
+                    .trace(&set.data, black_box(lights), &set.view, path, 0..8, &())
+                    .expect("cpu")
+            });
+        });
+    }
+    group.finish();
+}
+
 criterion_group!(
-    benches, densities, clusters, maps, shading, two_lights, frames
+    benches, densities, clusters, maps, shading, two_lights, frames, paths
 );
 criterion_main!(benches);

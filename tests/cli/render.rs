@@ -310,3 +310,19 @@ fn files_tell_how_they_were_made() {
     let text = String::from_utf8_lossy(&bytes);
     assert!(text.contains("vsgl:settings") && text.contains("\"tonemap\":\"neutral\""));
 }
+
+#[test]
+fn paths_are_drawn_by_their_seed() {
+    let folder = Folder::new();
+    let words = format!("render {SMALL} --method path --spp 4");
+    for (file, seed) in [("a", "1"), ("b", "1"), ("c", "4294967297")] {
+        let report = folder
+            .run(&format!("{words} --seed {seed} -o {file}.exr"))
+            .ok();
+        assert!(report.contains("trace"), "{report}");
+    }
+    let [a, b, c] = ["a.exr", "b.exr", "c.exr"].map(|name| exr(&folder, name));
+    let light = |picture: &Picture| picture.rgb("indirect").expect("a layer");
+    assert_eq!(light(&a), light(&b));
+    assert_ne!(light(&a), light(&c));
+}

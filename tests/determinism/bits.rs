@@ -55,8 +55,14 @@ fn any_number_of_threads_and_any_run() {
         "method=vpl rsm=32 occlusion=rays",
         "interleave=4",
         "interleave=2 occlusion=sampled",
+        "method=path spp=9",
     ] {
         for (scene, aa) in [("cornell", 1), ("many-lights:3", 2)] {
+            let aa = if settings.starts_with("method=path") {
+                1
+            } else {
+                aa
+            };
             // Sizes that no piece of work divides.
             let mut shot = Shot::sample(scene).size(37, 19).with(settings);
             shot.view.aa = aa;

@@ -78,6 +78,7 @@ pub(crate) fn common() -> Vec<(String, Settings)> {
     }
     for words in [
         "method=vpl",
+        "method=path spp=2 max_depth=5",
         "clustering=filtered",
         "clustering=whole",
         "clustering=filtered pdf=uniform",

@@ -3,6 +3,7 @@
 //! In strict mode every bit agrees on software drivers. The ordinary path is what users run.
 
 mod edges;
+mod paths;
 mod shares;
 
 use std::path::{Path, PathBuf};
@@ -156,7 +157,7 @@ fn from_a_corner(file: &Path) -> Shot {
 }
 
 /// Lights of all kinds in a room, each alone and all together.
-fn kinds_of_lights() -> Vec<(&'static str, Vec<Light>)> {
+pub(crate) fn kinds_of_lights() -> Vec<(&'static str, Vec<Light>)> {
     let point = |x: f32, range: f32| {
         Light::Point(PointLight {
             position: Vec3::new(x, 0.55, 0.2),
@@ -209,7 +210,7 @@ fn lights_of_all_kinds() {
 }
 
 /// Cornell with walls that shine, one of them by a texture, beside its lamp.
-fn shining(settings: &str) -> Shot {
+pub(crate) fn shining(settings: &str) -> Shot {
     let mut shot = Shot::sample("cornell").with(settings);
     let scene = &mut shot.scene;
     let count = scene.mesh.positions.len();

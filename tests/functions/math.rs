@@ -3,12 +3,13 @@
 use super::arguments::Kind::*;
 use super::table::{Arguments, Entry, entry};
 use vsgl_core::math::moments::{Moments, Scatter};
-use vsgl_core::math::{elementary, vec};
+use vsgl_core::math::{elementary, sobol, vec};
 
 pub(super) fn entries() -> Vec<Entry> {
     let mut all = elementary_functions();
     all.extend(vectors());
     all.extend(moments());
+    all.extend(integers());
     all
 }
 
@@ -156,5 +157,50 @@ fn moments() -> Vec<Entry> {
             move |a| full(a, 0).scaled(a.f(3)),
         )
         .by("scatter_scaled(Scatter(x0, x1, x2), x3)"),
+    ]
+}
+
+/// Upper and lower half of an integer, which f32 holds exactly.
+fn halves(x: u32) -> (f32, f32) {
+    ((x >> 16) as f32, (x & 0xffff) as f32)
+}
+
+/// Functions of integers; the bits of any numbers are their arguments.
+fn integers() -> Vec<Entry> {
+    const FILE: &str = "math/sobol";
+    const HALVES: &str =
+        "fn halves(x: u32) -> vec2<f32> { return vec2(f32(x >> 16u), f32(x & 0xffffu)); }\n";
+    let bits = Signed(1e-38, 1e38);
+    let of = |a: &Arguments<'_>, i: usize| a.f(i).to_bits();
+    vec![
+        entry(FILE, "sobol_hash", &[bits], move |a| {
+            halves(sobol::hash(of(a, 0)))
+        })
+        .by("halves(sobol_hash(bitcast<u32>(x0)))")
+        .with(HALVES),
+        entry(FILE, "sobol_combine", &[bits, bits], move |a| {
+            halves(sobol::combine(of(a, 0), of(a, 1)))
+        })
+        .by("halves(sobol_combine(bitcast<u32>(x0), bitcast<u32>(x1)))")
+        .with(HALVES),
+        entry(FILE, "sobol_scramble", &[bits, bits], move |a| {
+            halves(sobol::scramble(of(a, 0), of(a, 1)))
+        })
+        .by("halves(sobol_scramble(bitcast<u32>(x0), bitcast<u32>(x1)))")
+        .with(HALVES),
+        entry(FILE, "sobol_sobol", &[bits], move |a| {
+            halves(sobol::sobol(of(a, 0))[1])
+        })
+        .by("halves(sobol_sobol(bitcast<u32>(x0)).y)")
+        .with(HALVES),
+        entry(FILE, "sobol_point", &[bits, bits, bits], move |a| {
+            let [x, y] = sobol::point(of(a, 0), of(a, 1), of(a, 2));
+            (x, y)
+        })
+        .by("sobol_point(bitcast<u32>(x0), bitcast<u32>(x1), bitcast<u32>(x2))"),
+        entry(FILE, "sobol_fraction", &[bits], move |a| {
+            sobol::fraction(of(a, 0))
+        })
+        .by("sobol_fraction(bitcast<u32>(x0))"),
     ]
 }

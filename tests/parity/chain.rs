@@ -1,11 +1,14 @@
 //! The chain of phases on two backends: a fault in one phase shows in that phase and in the whole, and nowhere else.
 
+use std::ops::Range;
 use std::sync::Arc;
 use vsgl_core::Result;
 use vsgl_core::backend::{Backend, PdfInputs, Senders, ShadeInputs};
 use vsgl_core::data::{Columns, GBuffer, Image, Pdf, Radiance, Rsm, SceneData, Vsgls};
 use vsgl_core::parity::{Origin, Party, Stage, Step, Subject, Tolerance, chain};
-use vsgl_core::plan::{ClusterPlan, GBufferPlan, PdfPlan, ReconstructPlan, RsmPlan, ShadePlan};
+use vsgl_core::plan::{
+    ClusterPlan, GBufferPlan, PathPlan, PdfPlan, ReconstructPlan, RsmPlan, ShadePlan,
+};
 use vsgl_core::render::{Observer, Phase, View};
 use vsgl_core::scene::Light;
 use vsgl_cpu::CpuBackend;
@@ -132,6 +135,20 @@ impl Backend for Faulty {
         self.spoil(Phase::Reconstruct, sound, dim)
     }
 
+    fn trace(
+        &self,
+        scene: &Arc<SceneData>,
+        lights: &[Light],
+        view: &View,
+        plan: &PathPlan,
+        samples: Range<u32>,
+        observer: &dyn Observer,
+    ) -> Result<Arc<Radiance>> {
+        let sound = self.cpu.trace(scene, lights, view, plan, samples, observer);
+        let spoil = |r: &mut Radiance| r.direct.iter_mut().flatten().for_each(|c| *c *= 1.01);
+        self.spoil(Phase::Trace, sound, spoil)
+    }
+
     fn resolve(
         &self,
         gbuffer: &Arc<GBuffer>,
@@ -194,6 +211,7 @@ fn equal_backends_agree_in_every_phase_of_every_plan() {
             shot().with("interleave=2 occlusion=sampled"),
             "gbuffer rsm cluster shade reconstruct resolve frame",
         ),
+        (shot().with("method=path spp=3"), "gbuffer trace frame"),
         (dark, "gbuffer shade resolve frame"),
     ] {
         let steps = run(&shot, None);
@@ -227,4 +245,11 @@ fn a_fault_shows_in_its_phase_and_in_the_frame_alone() {
             .collect();
         assert_eq!(failed, [Stage::Phase(fault), Stage::Frame], "{fault}");
     }
+    let shot = Shot::sample("cornell")
+        .size(16, 9)
+        .with("method=path spp=3");
+    let steps = run(&shot, Some(Phase::Trace));
+    let failed = steps.iter().filter(|s| !s.comparison.passed());
+    let failed: Vec<Stage> = failed.map(|s| s.stage).collect();
+    assert_eq!(failed, [Stage::Phase(Phase::Trace), Stage::Frame]);
 }

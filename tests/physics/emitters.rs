@@ -9,11 +9,11 @@ use vsgl_tests::measure::quantile;
 use vsgl_tests::render::Shot;
 
 const HEIGHT: f32 = 1.0;
-const ALBEDO: f64 = 0.6;
+pub(super) const ALBEDO: f64 = 0.6;
 const RADIANCE: [f32; 3] = [4.0, 2.0, 1.0];
 
 /// A floor of 4 by 4 m and a lamp of 1 by 0.6 m over it, one metre up, that faces down.
-fn room() -> Scene {
+pub(super) fn room() -> Scene {
     let mut mesh = Mesh::default();
     let mut quad = |half: [f32; 2], y: f32, down: bool, material: u32| {
         let [x, z] = half;
@@ -148,7 +148,7 @@ fn dark_texels_send_nothing() {
 }
 
 /// Irradiance of the floor under the lamp, by the midpoint rule on 200 by 200 points.
-fn irradiance(at: DVec3) -> f64 {
+pub(super) fn irradiance(at: DVec3) -> f64 {
     let n = 200;
     let mut sum = 0.0;
     for i in 0..n {

@@ -9,11 +9,11 @@ use vsgl_core::sg::glossy::GlossyView;
 use vsgl_tests::random::sphere_point;
 use vsgl_tests::render::Shot;
 
-const RADIUS: f32 = 2.0;
-const ALBEDO: f32 = 0.8;
+pub(super) const RADIUS: f32 = 2.0;
+pub(super) const ALBEDO: f32 = 0.8;
 
 /// An integrating sphere: matte, seen from inside, with a lamp off its centre.
-fn sphere() -> Scene {
+pub(super) fn sphere() -> Scene {
     let (rings, segments) = (64u32, 128u32);
     let mut mesh = Mesh::default();
     for ring in 0..=rings {

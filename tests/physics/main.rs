@@ -9,4 +9,5 @@ mod energy;
 mod furnace;
 mod invariance;
 mod lights;
+mod paths;
 mod shares;

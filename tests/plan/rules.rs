@@ -496,3 +496,33 @@ fn raster_is_a_choice_with_a_reason() {
     assert!(reason(&raster, "raster").is_some_and(|(runs, why)| runs && why.contains("edges")));
     assert_ne!(rays.gbuffer, raster.gbuffer);
 }
+
+#[test]
+fn paths_need_no_lights_made_of_texels() {
+    let plan = matte(shot("method=path spp=3 max_depth=2")).plan();
+    assert!(plan.bounce.is_none() && !plan.shade.bounce);
+    let path = plan.path.as_ref().expect("paths");
+    assert_eq!((path.samples, path.max_depth), (3, 2));
+    assert!(!path.glossy && !path.emitters && !path.surface.emission && !path.surface.textures);
+    assert_eq!(
+        reason(&plan, "specular parts"),
+        Some((false, "no surface is glossy"))
+    );
+    assert_eq!(
+        reason(&plan, "light of surfaces"),
+        Some((false, "no surface shines"))
+    );
+    let mut shining = shot("method=path");
+    shining.scene.materials[0].emission = [1.0; 3];
+    let plan = shining.plan();
+    let path = plan.path.as_ref().expect("paths");
+    assert!(path.glossy && path.emitters && path.surface.emission);
+    // What the camera sees is not asked for what it sends: paths find that.
+    assert!(!plan.gbuffer.surface.emission);
+    let plan = shining.with("max_depth=1").plan();
+    assert_eq!(
+        reason(&plan, "light of surfaces"),
+        Some((false, "paths of depth 1 end at the first surface"))
+    );
+    assert!(shot("").plan().path.is_none());
+}

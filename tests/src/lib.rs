@@ -1,6 +1,7 @@
 //! Tests that need more than one crate, and what they share.
 
 pub mod assets;
+pub mod chance;
 pub mod coherence;
 pub mod gltf;
 pub mod gpu;

@@ -10,6 +10,7 @@ use crate::args::{SceneArgs, SettingsArgs, Size, ViewArgs};
 use crate::exit::{Failure, Result};
 use std::path::Path;
 use vsgl_core::data::SceneData;
+use vsgl_core::math::sobol;
 use vsgl_core::plan::Plan;
 use vsgl_core::render::View;
 use vsgl_core::scene::{Light, Scene, SceneFacts, gltf, samples};
@@ -91,7 +92,11 @@ impl Job {
         }
         .checked()?;
         let facts = SceneFacts::new(&read, &lights, &camera);
-        let plan = Plan::new(&facts, &settings)?;
+        let mut plan = Plan::new(&facts, &settings)?;
+        let seed = view.seed.unwrap_or(0);
+        if let Some(path) = &mut plan.path {
+            path.seed = sobol::combine(seed as u32, (seed >> 32) as u32);
+        }
         if facts.triangles > 0 && lights.is_empty() && facts.emitters == 0 {
             let shown = if facts.seen.unlit {
                 "nothing but what shines by itself will be seen"
@@ -114,7 +119,7 @@ impl Job {
             settings,
             facts,
             plan,
-            seed: view.seed.unwrap_or(0),
+            seed,
             warnings,
         })
     }

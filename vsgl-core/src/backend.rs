@@ -2,9 +2,12 @@
 
 use crate::data::{Columns, GBuffer, Image, Pdf, Radiance, Rsm, SceneData, Vsgls};
 use crate::error::Result;
-use crate::plan::{ClusterPlan, GBufferPlan, PdfPlan, ReconstructPlan, RsmPlan, ShadePlan};
+use crate::plan::{
+    ClusterPlan, GBufferPlan, PathPlan, PdfPlan, ReconstructPlan, RsmPlan, ShadePlan,
+};
 use crate::render::{Observer, View};
 use crate::scene::Light;
+use std::ops::Range;
 
 /// The phases, on data that the backend keeps where it likes.
 ///
@@ -87,6 +90,19 @@ pub trait Backend: Sized {
         gbuffer: &Self::Res<GBuffer>,
         radiance: &Self::Res<Radiance>,
         plan: &ReconstructPlan,
+    ) -> Result<Self::Res<Radiance>>;
+    /// Light along the paths of some samples through each pixel, added up: at most [`PathPlan::PIECE`] samples, in their order.
+    ///
+    /// # Errors
+    /// If the device failed; [`crate::Error::Cancelled`] if the observer says so.
+    fn trace(
+        &self,
+        scene: &Self::Res<SceneData>,
+        lights: &[Light],
+        view: &View,
+        plan: &PathPlan,
+        samples: Range<u32>,
+        observer: &dyn Observer,
     ) -> Result<Self::Res<Radiance>>;
     /// The mean over the samples of each pixel.
     ///

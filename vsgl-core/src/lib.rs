@@ -48,6 +48,8 @@ pub mod render;
 pub mod scene;
 #[cfg(feature = "render")]
 pub mod settings;
+#[cfg(feature = "render")]
+mod trace;
 
 pub use glam;
 

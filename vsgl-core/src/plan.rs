@@ -19,6 +19,8 @@ pub struct Plan {
     pub shade: ShadePlan,
     /// From shares of the virtual lights to all of them.
     pub reconstruct: Option<ReconstructPlan>,
+    /// Paths instead of all the rest.
+    pub path: Option<PathPlan>,
     /// Why, a line for each decision.
     pub reasons: Vec<Reason>,
 }
@@ -143,6 +145,29 @@ pub struct ClusterPlan {
     pub apart: bool,
 }
 
+/// Paths of light from the eye.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PathPlan {
+    /// Paths through each pixel.
+    pub samples: u32,
+    /// Longest paths.
+    pub max_depth: u32,
+    /// What random numbers depend on, besides pixel and sample.
+    pub seed: u32,
+    /// Surfaces have specular parts.
+    pub glossy: bool,
+    /// Points of surfaces that shine are drawn.
+    pub emitters: bool,
+    /// What is read of surfaces.
+    pub surface: SurfacePlan,
+}
+
+impl PathPlan {
+    /// Paths that are added up in one piece, in f32; pieces are added up in f64 in the order of samples, so that the sum
+    /// does not depend on how the work was shared out.
+    pub const PIECE: u32 = 8;
+}
+
 /// Shading.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ShadePlan {
@@ -175,6 +200,25 @@ pub struct ShadePlan {
 }
 
 impl ShadePlan {
+    /// No light at all.
+    fn none() -> Self {
+        Self {
+            bounce: false,
+            emitters: false,
+            glossy_receivers: false,
+            glossy_senders: false,
+            anisotropic_receivers: false,
+            anisotropic_senders: false,
+            emission: Emission::Cosine,
+            diffuse: DiffuseForm::V13,
+            glossy: GlossyForm::NdfFilter,
+            occlusion: OcclusionMethod::None,
+            masks: false,
+            interleave: 1,
+            rays: 0,
+        }
+    }
+
     /// Whether shading leaves sums for reconstruction instead of light to the eye.
     pub fn leaves_sums(&self) -> bool {
         self.bounce && (self.interleave > 1 || self.occlusion == OcclusionMethod::Sampled)
@@ -207,6 +251,9 @@ impl Plan {
     /// # Errors
     /// [`Error::Setting`](crate::Error::Setting) where settings contradict each other. None do as yet.
     pub fn new(facts: &SceneFacts, settings: &Settings) -> Result<Self> {
+        if settings.method == Method::Path {
+            return Ok(Self::of_paths(facts, settings));
+        }
         let mut reasons = Reasons::default();
         let shines = facts.emitters > 0;
         let lit = reasons.decide(
@@ -451,8 +498,64 @@ impl Plan {
             bounce,
             shade,
             reconstruct,
+            path: None,
             reasons: reasons.0,
         })
+    }
+
+    /// Paths: what the camera sees is needed for the layers that are not light.
+    fn of_paths(facts: &SceneFacts, settings: &Settings) -> Self {
+        let mut reasons = Reasons::default();
+        reasons.no("clusters", "the method `path` draws paths from the eye");
+        let glossy = reasons.decide(
+            "specular parts",
+            &[(facts.glossy, "no surface is glossy")],
+            "some surface is glossy",
+        );
+        let emitters = reasons.decide(
+            "light of surfaces",
+            &[
+                (facts.emitters > 0, "no surface shines"),
+                (
+                    settings.max_depth > 1,
+                    "paths of depth 1 end at the first surface",
+                ),
+            ],
+            "points of surfaces that shine are drawn",
+        );
+        let masks = facts.masks;
+        let of = |facts: SurfaceFacts, anisotropy, emission| SurfacePlan {
+            textures: facts.textures,
+            normal_maps: facts.normal_maps,
+            colors: facts.colors,
+            unlit: facts.unlit,
+            anisotropy,
+            emission,
+            masks,
+        };
+        Self {
+            gbuffer: GBufferPlan {
+                glossy: facts.glossy_receivers,
+                surface: of(facts.seen, false, false),
+                primary: Primary::Rays,
+            },
+            bounce: None,
+            shade: ShadePlan::none(),
+            reconstruct: None,
+            path: Some(PathPlan {
+                samples: settings.spp,
+                max_depth: settings.max_depth,
+                seed: 0,
+                glossy,
+                emitters,
+                surface: of(
+                    facts.any,
+                    glossy && facts.any.anisotropy,
+                    facts.any.emission || facts.any.unlit,
+                ),
+            }),
+            reasons: reasons.0,
+        }
     }
 }
 

@@ -5,6 +5,7 @@ use crate::data::{GBuffer, Image, Pdf, Radiance, Rsm, SceneData, Vsgls};
 use crate::error::{Error, Result};
 use crate::plan::Plan;
 use crate::scene::{Camera, Light};
+use crate::trace;
 use std::fmt;
 use std::time::{Duration, Instant};
 
@@ -107,6 +108,8 @@ pub enum Phase {
     Shade,
     /// From shares of the virtual lights to all of them.
     Reconstruct,
+    /// Paths of light.
+    Trace,
     /// Samples to pixels.
     Resolve,
 }
@@ -120,6 +123,7 @@ impl fmt::Display for Phase {
             Self::GBuffer => "gbuffer",
             Self::Shade => "shade",
             Self::Reconstruct => "reconstruct",
+            Self::Trace => "trace",
             Self::Resolve => "resolve",
         })
     }
@@ -159,7 +163,8 @@ pub struct Frame<B: Backend> {
     pub image: B::Res<Image>,
 }
 
-/// Renders a picture: RSM → G-buffer → PDF → cluster → shade → reconstruct → resolve, as far as the plan wants them.
+/// Renders a picture: RSM → G-buffer → PDF → cluster → shade → reconstruct → resolve, as far as the plan wants them; or paths,
+/// with the method `path`.
 ///
 /// # Errors
 /// [`Error::Cancelled`] if the observer says so, and what the backend's phases return.
@@ -171,6 +176,9 @@ pub fn render<B: Backend>(
     plan: &Plan,
     observer: &dyn Observer,
 ) -> Result<Frame<B>> {
+    if plan.path.is_some() {
+        return trace::frame(backend, scene, lights, view, plan, observer);
+    }
     let bounce = plan.bounce.as_ref();
     let rsm = bounce
         .map(|p| run(observer, Phase::Rsm, || backend.rsm(scene, lights, &p.rsm)))
@@ -230,7 +238,11 @@ pub fn render<B: Backend>(
     })
 }
 
-fn run<T>(observer: &dyn Observer, phase: Phase, work: impl FnOnce() -> Result<T>) -> Result<T> {
+pub(crate) fn run<T>(
+    observer: &dyn Observer,
+    phase: Phase,
+    work: impl FnOnce() -> Result<T>,
+) -> Result<T> {
     if observer.cancelled() {
         return Err(Error::Cancelled(phase));
     }

@@ -40,6 +40,11 @@ pub struct Settings {
     pub interleave: u32,
     /// What decides which triangle the camera sees.
     pub primary: Primary,
+    /// Paths through each pixel, with the method `path`: 1 ..= [`Settings::SPP_MAX`].
+    pub spp: u32,
+    /// Longest paths, with the method `path`: 1 light that surfaces send by themselves, 2 direct light, 3 one bounce, up to
+    /// [`Settings::DEPTH_MAX`].
+    pub max_depth: u32,
 }
 
 impl Default for Settings {
@@ -62,6 +67,8 @@ impl Default for Settings {
             rays: 8,
             interleave: 1,
             primary: Primary::Rays,
+            spp: 64,
+            max_depth: 3,
         }
     }
 }
@@ -105,6 +112,8 @@ choice! {
         Vsgl = "vsgl",
         /// Every texel of the reflective shadow maps a point light: the limit of infinitely many clusters, slow.
         Vpl = "vpl",
+        /// Paths of light drawn at random from the eye, without error but noise: the truth to compare with.
+        Path = "path",
     }
 }
 choice! {
@@ -297,6 +306,10 @@ impl Settings {
     pub const RSM_MAX: u32 = 4096;
     /// Most rays from a sample.
     pub const RAYS_MAX: u32 = 64;
+    /// Most paths through a pixel.
+    pub const SPP_MAX: u32 = 1 << 24;
+    /// Longest paths.
+    pub const DEPTH_MAX: u32 = 64;
     /// All keys, in the order of [`Settings::entries`].
     pub const KEYS: &'static [&'static str] = &[
         "method",
@@ -316,6 +329,8 @@ impl Settings {
         "rays",
         "interleave",
         "primary",
+        "spp",
+        "max_depth",
     ];
 
     /// All keys with their values, as [`Settings::set`] takes them.
@@ -338,6 +353,8 @@ impl Settings {
             self.rays.to_string(),
             self.interleave.to_string(),
             self.primary.to_string(),
+            self.spp.to_string(),
+            self.max_depth.to_string(),
         ];
         Self::KEYS.iter().copied().zip(values).collect()
     }
@@ -378,6 +395,8 @@ impl Settings {
             "rays" => self.rays = integer(key, value, 1, Self::RAYS_MAX)?,
             "interleave" => self.interleave = side(key, value)?,
             "primary" => self.primary = word(key, value, Primary::from_word, Primary::WORDS)?,
+            "spp" => self.spp = integer(key, value, 1, Self::SPP_MAX)?,
+            "max_depth" => self.max_depth = integer(key, value, 1, Self::DEPTH_MAX)?,
             _ => {
                 let remedy = format!("keys are {}", Self::KEYS.join(", "));
                 return Err(Error::setting(key, "no such key", remedy));

@@ -29,10 +29,13 @@
 
 mod phase;
 
+use std::ops::Range;
 use std::sync::Arc;
 use vsgl_core::backend::{Backend, PdfInputs, ShadeInputs};
-use vsgl_core::data::{Columns, GBuffer, Image, Pdf, Radiance, Rsm, SceneData, Vsgls};
-use vsgl_core::plan::{ClusterPlan, GBufferPlan, PdfPlan, ReconstructPlan, RsmPlan, ShadePlan};
+use vsgl_core::data::{Columns, GBuffer, Image, LightRecord, Pdf, Radiance, Rsm, SceneData, Vsgls};
+use vsgl_core::plan::{
+    ClusterPlan, GBufferPlan, PathPlan, PdfPlan, ReconstructPlan, RsmPlan, ShadePlan,
+};
 use vsgl_core::render::{Observer, View};
 use vsgl_core::scene::Light;
 use vsgl_core::settings::Primary;
@@ -151,6 +154,21 @@ impl Backend for CpuBackend {
         Ok(Arc::new(self.pool.install(|| {
             phase::reconstruct::run(gbuffer, radiance, plan)
         })))
+    }
+
+    fn trace(
+        &self,
+        scene: &Arc<SceneData>,
+        lights: &[Light],
+        view: &View,
+        plan: &PathPlan,
+        samples: Range<u32>,
+        observer: &dyn Observer,
+    ) -> Result<Arc<Radiance>> {
+        let lights: Vec<LightRecord> = lights.iter().map(LightRecord::from).collect();
+        self.pool
+            .install(|| phase::path::run(scene, &lights, view, plan, samples, observer))
+            .map(Arc::new)
     }
 
     fn resolve(

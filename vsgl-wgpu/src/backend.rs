@@ -6,10 +6,13 @@ use crate::passes::shade::Submits;
 use crate::recorder::Recorder;
 use crate::res::WgpuRes;
 use crate::timing::{Clock, Timings};
+use std::ops::Range;
 use std::time::Instant;
 use vsgl_core::backend::{Backend, PdfInputs, ShadeInputs};
 use vsgl_core::data::{Columns, GBuffer, Image, Pdf, Radiance, Rsm, SceneData, Vsgls};
-use vsgl_core::plan::{ClusterPlan, GBufferPlan, PdfPlan, ReconstructPlan, RsmPlan, ShadePlan};
+use vsgl_core::plan::{
+    ClusterPlan, GBufferPlan, PathPlan, PdfPlan, ReconstructPlan, RsmPlan, ShadePlan,
+};
 use vsgl_core::render::{Observer, Phase, View};
 use vsgl_core::scene::Light;
 use vsgl_core::{Error, Result};
@@ -156,6 +159,27 @@ impl Backend for WgpuBackend {
         self.phase(Phase::Reconstruct, |r| {
             passes::reconstruct::record(r, gbuffer, radiance, plan)
         })
+    }
+
+    fn trace(
+        &self,
+        scene: &WgpuRes<SceneData>,
+        lights: &[Light],
+        view: &View,
+        plan: &PathPlan,
+        samples: Range<u32>,
+        observer: &dyn Observer,
+    ) -> Result<WgpuRes<Radiance>> {
+        let context = &self.context;
+        let tracing = passes::path::Tracing::new(context, scene, lights, view, plan, samples)?;
+        for dispatch in tracing.dispatches() {
+            if observer.cancelled() {
+                return Err(Error::Cancelled(Phase::Trace));
+            }
+            self.phase(Phase::Trace, |r| tracing.record(r, scene, dispatch))?;
+            context.wait_but_one()?;
+        }
+        Ok(tracing.finish())
     }
 
     fn resolve(

@@ -25,7 +25,7 @@ use vsgl_core::glam::Vec3;
 use vsgl_core::plan::Plan;
 use vsgl_core::render::{Phase, View};
 use vsgl_core::scene::{Camera, Light, SceneFacts, SurfaceFacts};
-use vsgl_core::settings::{OcclusionMethod, Settings};
+use vsgl_core::settings::{Method, OcclusionMethod, Settings};
 use vsgl_core::{Error, Result};
 use wgpu::{CommandEncoder, TextureView};
 
@@ -65,6 +65,13 @@ pub fn kernels() -> Vec<KernelId> {
 /// # Errors
 /// [`Error::Setting`] where settings contradict each other.
 pub fn host_plan(settings: &Settings, lights: usize, glossy: bool) -> Result<Plan> {
+    if settings.method == Method::Path {
+        return Err(Error::setting(
+            "method",
+            "paths need materials, which hosts do not bring",
+            "render the scene by `render`, or take the method `vsgl`",
+        ));
+    }
     // What hosts import has one roughness.
     let surfaces = SurfaceFacts {
         anisotropy: false,
@@ -80,6 +87,8 @@ pub fn host_plan(settings: &Settings, lights: usize, glossy: bool) -> Result<Pla
         glossy_receivers: glossy,
         seen: surfaces,
         sent: surfaces,
+        any: surfaces,
+        glossy,
         masks: true,
         bounds: (Vec3::ZERO, Vec3::ZERO),
     };

@@ -51,6 +51,7 @@ pub const MODULES: &[(&str, &str)] = modules![
     "entry/leaves",
     "entry/nearest",
     "entry/partition",
+    "entry/path",
     "entry/pdf",
     "entry/raster",
     "entry/reconstruct",
@@ -68,8 +69,10 @@ pub const MODULES: &[(&str, &str)] = modules![
     "geom/triangle",
     "math/elementary",
     "math/moments",
+    "math/sobol",
     "math/vec",
     "phase/anisotropy",
+    "phase/bsdf",
     "phase/camera_map",
     "phase/cluster",
     "phase/color",
@@ -86,6 +89,7 @@ pub const MODULES: &[(&str, &str)] = modules![
     "phase/nearest",
     "phase/normal_map",
     "phase/partition",
+    "phase/path",
     "phase/pdf",
     "phase/reconstruct",
     "phase/reflect",
@@ -168,8 +172,9 @@ const fn words<T>() -> u32 {
 fn header() -> String {
     use vsgl_core::data::{self, map_kind};
     use vsgl_core::phase::{
-        cluster, direct, facing, filtered_box, footprint, importance, interleave, nearest,
-        normal_map, partition, pdf, reconstruct, rsm, sampled, shade, surface, texture, whole,
+        bsdf, cluster, direct, facing, filtered_box, footprint, importance, interleave, nearest,
+        normal_map, partition, path, pdf, reconstruct, rsm, sampled, shade, surface, texture,
+        whole,
     };
     let floats: &[(&str, f32)] = &[
         ("ALPHA_MIN", surface::ALPHA_MIN),
@@ -190,6 +195,9 @@ fn header() -> String {
         ("BOX_CELLS", filtered_box::CELLS),
         ("BOX_LEAST", filtered_box::LEAST),
         ("NEAREST_FAR", nearest::FAR),
+        ("CHANCE_MIN", bsdf::CHANCE_MIN),
+        ("GO_ON_LEAST", path::GO_ON[0]),
+        ("GO_ON_MOST", path::GO_ON[1]),
         ("GRAZING_MIN", footprint::GRAZING_MIN),
         ("HORIZON", normal_map::HORIZON),
         ("TANGENT_MIN", normal_map::TANGENT_MIN),
@@ -216,6 +224,8 @@ fn header() -> String {
         ("INVOCATIONS", crate::kernel::INVOCATIONS),
         ("GOLDEN_TURN", pdf::GOLDEN_TURN),
         ("INTERLEAVE", importance::INTERLEAVE),
+        ("PATH_PAIRS", path::PAIRS),
+        ("ROULETTE_DEPTH", path::ROULETTE_DEPTH),
         ("PARTITION_BLOCK", partition::BLOCK as u32),
         ("PARTITION_LANES", partition::LANES as u32),
         ("WHOLE_CHUNK", whole::CHUNK as u32),

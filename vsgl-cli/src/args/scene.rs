@@ -74,7 +74,7 @@ pub struct ViewArgs {
     /// Render every Nth pixel of every Nth row of that size; the output is N times smaller [default: 1]
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u32).range(1..=65_536))]
     pub stride: Option<u32>,
-    /// Seed of random numbers; the present methods draw none, so it changes nothing [default: 0]
+    /// Seed of random numbers, which the method `path` alone draws [default: 0]
     #[arg(long, value_name = "N", allow_hyphen_values = true)]
     pub seed: Option<u64>,
 }

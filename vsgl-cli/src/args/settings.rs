@@ -57,11 +57,18 @@ pub struct SettingsArgs {
     /// What decides which triangle the camera sees; raster needs the backend wgpu, and differs along edges [default: rays]
     #[arg(long, value_parser = PossibleValuesParser::new(Primary::WORDS))]
     pub primary: Option<String>,
+    /// Paths through each pixel, with --method path [default: 64]
+    #[arg(long, value_name = "N", allow_hyphen_values = true)]
+    pub spp: Option<String>,
+    /// Longest paths, with --method path: 1 light that surfaces send by themselves, 2 direct light, 3 one bounce, up to 64
+    /// [default: 3]
+    #[arg(long, value_name = "N", allow_hyphen_values = true)]
+    pub max_depth: Option<String>,
 }
 
 impl SettingsArgs {
     /// Keys of core's settings that have a flag of the same name.
-    pub const FLAGS: [&'static str; 12] = [
+    pub const FLAGS: [&'static str; 14] = [
         "method",
         "lights",
         "rsm",
@@ -74,6 +81,8 @@ impl SettingsArgs {
         "diffuse",
         "glossy",
         "primary",
+        "spp",
+        "max_depth",
     ];
 
     /// The flags with their values, in the order of [`SettingsArgs::FLAGS`].
@@ -91,6 +100,8 @@ impl SettingsArgs {
             &self.diffuse,
             &self.glossy,
             &self.primary,
+            &self.spp,
+            &self.max_depth,
         ];
         let pairs = Self::FLAGS.into_iter().zip(values);
         pairs.filter_map(|(key, value)| Some((key, value.as_deref()?)))

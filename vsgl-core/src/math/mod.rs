@@ -5,4 +5,5 @@ pub mod elementary;
 pub mod fold;
 pub mod moments;
 pub mod polynomial;
+pub mod sobol;
 pub mod vec;

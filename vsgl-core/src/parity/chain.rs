@@ -6,7 +6,7 @@ use super::verdict::Comparison;
 use crate::backend::{Backend, PdfInputs, Senders, ShadeInputs};
 use crate::data::{Columns, GBuffer, Image, Pdf, Rsm, SceneData, Vsgls};
 use crate::error::{Error, Result};
-use crate::plan::Plan;
+use crate::plan::{PathPlan, Plan};
 use crate::render::{Observer, Phase, View, render};
 use crate::scene::Light;
 use std::fmt;
@@ -75,10 +75,14 @@ pub fn chain<R: Backend, T: Backend>(
     tolerance: &Tolerance,
     observer: &dyn Observer,
 ) -> Result<Vec<Step>> {
+    let tolerance = match &subject.plan.path {
+        Some(_) => tolerance.of_paths(),
+        None => *tolerance,
+    };
     let mut run = Run {
         reference,
         tested,
-        tolerance,
+        tolerance: &tolerance,
         observer,
         steps: Vec::new(),
     };
@@ -91,6 +95,26 @@ pub fn chain<R: Backend, T: Backend>(
         || r.gbuffer(&scene.reference, view, &plan.gbuffer),
         || t.gbuffer(&scene.tested, view, &plan.gbuffer),
     )?;
+    if let Some(path) = &plan.path {
+        let samples = 0..path.samples.min(PathPlan::PIECE);
+        run.phase(
+            Phase::Trace,
+            || {
+                r.trace(
+                    &scene.reference,
+                    lights,
+                    view,
+                    path,
+                    samples.clone(),
+                    observer,
+                )
+            },
+            || t.trace(&scene.tested, lights, view, path, samples.clone(), observer),
+        )?;
+        drop(gbuffer);
+        run.frame(&scene, subject)?;
+        return Ok(run.steps);
+    }
     let senders = run.senders(&scene, &gbuffer, subject)?;
     let inputs = ShadeInputs {
         scene: &scene.reference,

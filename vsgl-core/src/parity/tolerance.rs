@@ -79,6 +79,23 @@ impl Tolerance {
         decisions: 1e-3,
     };
 
+    /// The same for paths of light drawn at random: each surface that a path meets magnifies the rounding of its direction, by
+    /// the inverse of its roughness and of its size, and what is drawn may turn by one rounding. So a few numbers of a picture
+    /// may be as they like; strict mode still asks for every bit.
+    #[must_use]
+    pub fn of_paths(self) -> Self {
+        let shares = |steps| Values::Shares {
+            steps,
+            floor: self.values.floor(),
+        };
+        let values = match self.values {
+            Values::Bits => Values::Bits,
+            Values::Relative { .. } => shares(&[(1e-4, 1e-2), (1e-2, 1e-3)]),
+            Values::Shares { .. } => shares(&[(1e-3, 2e-2), (1e-2, 5e-3)]),
+        };
+        Self { values, ..self }
+    }
+
     /// What passes, in a line.
     pub fn describe(&self) -> String {
         let values = match self.values {

@@ -38,6 +38,15 @@ pub fn incoming(light: &LightRecord, position: Vec3) -> Incoming {
     }
 }
 
+/// Direction of a shadow ray to a light, and the parameter at its end: up to the light, or out of the scene.
+pub fn way(light: &LightRecord, incoming: &Incoming, origin: Vec3) -> (Vec3, f32) {
+    if light.parallel != 0 {
+        (incoming.axis, f32::MAX)
+    } else {
+        (Vec3::from_array(light.position) - origin, 1.0)
+    }
+}
+
 /// Radiance to the eye from one light \[W/(m² sr)\], with a shadow ray where it would shine.
 ///
 /// `facing` is the geometric normal on the side of the eye. Of the plan, masks and two roughnesses matter.
@@ -63,12 +72,7 @@ pub fn radiance(
         return Vec3::ZERO;
     }
     let origin = receiver.position + facing * lift(scene.lift(), receiver.position);
-    // Up to the light, or out of the scene.
-    let (towards, end) = if light.parallel != 0 {
-        (incoming.axis, f32::MAX)
-    } else {
-        (Vec3::from_array(light.position) - origin, 1.0)
-    };
+    let (towards, end) = way(light, &incoming, origin);
     if any_hit(scene, &Ray::new(origin, towards), end, plan.masks) {
         Vec3::ZERO
     } else {

@@ -3,6 +3,7 @@
 //! Backends loop over these functions, or repeat them word for word in their own language.
 
 pub mod anisotropy;
+pub mod bsdf;
 pub mod camera_map;
 pub mod cluster;
 pub mod color;
@@ -19,6 +20,7 @@ pub mod mask;
 pub mod nearest;
 pub mod normal_map;
 pub mod partition;
+pub mod path;
 pub mod pdf;
 pub mod reconstruct;
 pub mod resolve;

@@ -24,6 +24,10 @@ pub struct SceneFacts {
     pub seen: SurfaceFacts,
     /// What is to be read of triangles that the lights may reach, and that reflect anything.
     pub sent: SurfaceFacts,
+    /// What is to be read of any triangle, for paths that may reach all of them.
+    pub any: SurfaceFacts,
+    /// Some triangle is glossy.
+    pub glossy: bool,
     /// Some triangle has an alpha mask: it may stand in the way of any ray.
     pub masks: bool,
     /// Smallest box around all vertices \[m\], relative to the scene's origin.
@@ -129,6 +133,8 @@ impl SceneFacts {
             glossy_receivers: false,
             seen: SurfaceFacts::default(),
             sent: SurfaceFacts::default(),
+            any: SurfaceFacts::default(),
+            glossy: false,
             masks: false,
             bounds: scene.bounds(),
         };
@@ -142,6 +148,8 @@ impl SceneFacts {
         for (triangle, &material) in scene.mesh.triangles.iter().zip(&scene.mesh.material) {
             let found = findings[material as usize];
             facts.masks |= found.masked;
+            facts.glossy |= found.glossy;
+            facts.any = facts.any.or(found.surface);
             // Geometry is looked at only where the material has something new to say.
             let mut sent = facts.clone();
             sent.add_sent(found);

@@ -9,6 +9,7 @@ pub(crate) mod gbuffer;
 pub(crate) mod importance;
 pub(crate) mod nearest;
 pub(crate) mod partition;
+pub(crate) mod path;
 pub(crate) mod pdf;
 pub(crate) mod reconstruct;
 pub(crate) mod resolve;

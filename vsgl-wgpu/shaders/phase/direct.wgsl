@@ -16,6 +16,20 @@ fn direct_incoming(light: LightRecord, position: vec3<f32>) -> Incoming {
     return Incoming(direction, SHARPNESS_MAX, SHARPNESS_MAX, light.intensity * share);
 }
 
+// Direction of a shadow ray, and the parameter at its end.
+struct Way {
+    towards: vec3<f32>,
+    end: f32,
+}
+
+// Up to a light, or out of the scene.
+fn direct_way(light: LightRecord, incoming: Incoming, origin: vec3<f32>) -> Way {
+    if light.parallel != 0u {
+        return Way(incoming.axis, F32_MAX);
+    }
+    return Way(light.position - origin, 1.0);
+}
+
 // Radiance to the eye from one light, with a shadow ray where it would shine.
 fn direct_radiance(
     nodes: u32,
@@ -39,14 +53,8 @@ fn direct_radiance(
         return vec3(0.0);
     }
     let origin = receiver.position + facing * surface_lift(lift, receiver.position);
-    // Up to the light, or out of the scene.
-    var towards = incoming.axis;
-    var end = F32_MAX;
-    if light.parallel == 0u {
-        towards = light.position - origin;
-        end = 1.0;
-    }
-    if traverse_any_hit(nodes, ray_new(origin, towards), end) {
+    let way = direct_way(light, incoming, origin);
+    if traverse_any_hit(nodes, ray_new(origin, way.towards), way.end) {
         return vec3(0.0);
     }
     return reflected;

@@ -9,6 +9,7 @@ pub(crate) mod import;
 mod importance;
 mod nearest;
 mod partition;
+pub(crate) mod path;
 pub(crate) mod pdf;
 pub(crate) mod reconstruct;
 pub(crate) mod resolve;
@@ -29,6 +30,7 @@ use vsgl_core::plan::{Plan, SurfacePlan};
 /// Every pipeline that a plan needs.
 pub fn kernels(plan: &Plan) -> Vec<KernelId> {
     let mut kernels = gbuffer::kernels(&plan.gbuffer);
+    kernels.extend(plan.path.iter().flat_map(path::kernels));
     let mut clusters = false;
     if let Some(bounce) = &plan.bounce {
         kernels.extend(rsm::kernels(&bounce.rsm));

@@ -1,0 +1,149 @@
+//! Paths of light where the answer is known.
+//!
+//! Each test asks whether a mean over sixteen independent pictures is within five of its standard errors, and what the scene
+//! itself is off, of the truth: a sound tracer fails one of them with a chance of 1.6e-4 (Student's t with 15 degrees of
+//! freedom) when its seeds are changed, and never while they are not.
+
+use super::emitters::{ALBEDO as FLOOR, irradiance, room};
+use super::furnace::{ALBEDO, RADIUS, sphere};
+use std::f64::consts::PI;
+use vsgl_core::data::Image;
+use vsgl_core::glam::{DVec3, Vec2};
+use vsgl_core::metrics::luminance;
+use vsgl_core::plan::Plan;
+use vsgl_core::scene::{Filter, Material, Texture, TextureRef};
+use vsgl_tests::chance::{Estimate, pictures};
+use vsgl_tests::render::Shot;
+
+const PICTURES: u32 = 16;
+const ERRORS: f64 = 5.0;
+
+fn mean(layer: &[[f32; 3]]) -> f64 {
+    layer.iter().map(|&c| luminance(c)).sum::<f64>() / layer.len() as f64
+}
+
+fn estimate(shot: &Shot, plan: &Plan, value: impl Fn(&Image) -> f64) -> Estimate {
+    let values: Vec<f64> = pictures(shot, plan, PICTURES).iter().map(value).collect();
+    Estimate::of(&values)
+}
+
+/// In a matte sphere each bounce brings the same everywhere, and the next has the albedo's share of it.
+#[test]
+fn bounces_in_an_integrating_sphere_add_up() {
+    let maps = Shot::of(sphere()).with("rsm=256 lights=1").frame().rsm;
+    let flux: f64 = maps
+        .expect("a bounce")
+        .diffuse
+        .iter()
+        .map(|d| f64::from(d[1]))
+        .sum();
+    let albedo = f64::from(ALBEDO);
+    let once = albedo / PI * flux / (4.0 * PI * f64::from(RADIUS * RADIUS));
+    for (depth, bounces) in [(3, 1), (4, 2), (12, 10)] {
+        let shot = Shot::of(sphere()).with(&format!("method=path spp=16 max_depth={depth}"));
+        let found = estimate(&shot, &shot.plan(), |i| mean(&i.indirect()));
+        let exact: f64 = (0..bounces).map(|k| once * albedo.powi(k)).sum();
+        println!("depth {depth}: {found:?} for {exact}");
+        // Facets lie up to 0.06 % inside the sphere.
+        let allowed = ERRORS * found.error + 0.003 * exact;
+        assert!((found.mean - exact).abs() < allowed, "depth {depth}");
+        assert!(
+            found.error < 0.01 * exact,
+            "depth {depth}: too much noise to tell"
+        );
+    }
+}
+
+#[test]
+fn a_lamp_over_a_floor_is_its_integral() {
+    let shot = Shot::of(room()).with("method=path spp=16 max_depth=2");
+    let seen = shot.frame().gbuffer;
+    let exact: Vec<Option<f64>> = (0..seen.triangle.len())
+        .map(|i| {
+            let [x, y, z, _] = seen.position[i].map(f64::from);
+            let floor = seen.normal[i][1] > 0.5 && y.abs() < 1e-3 && x.abs().max(z.abs()) < 1.9;
+            floor.then(|| FLOOR / PI * 2.0 * irradiance(DVec3::new(x, 0.0, z)))
+        })
+        .collect();
+    let ratio = |image: &Image| {
+        let pairs = image.direct.iter().zip(&exact);
+        let ratios: Vec<f64> = pairs
+            .filter_map(|(found, exact)| Some(f64::from(found[1]) / (*exact)?))
+            .collect();
+        assert!(ratios.len() > 500, "{} pixels of floor", ratios.len());
+        ratios.iter().sum::<f64>() / ratios.len() as f64
+    };
+    for emitters in [true, false] {
+        let mut plan = shot.plan();
+        plan.path.as_mut().expect("paths").emitters = emitters;
+        let found = estimate(&shot, &plan, ratio);
+        println!("points of the lamp drawn: {emitters}: {found:?}");
+        // Pixels see a piece of floor, not its middle alone.
+        let allowed = ERRORS * found.error + 0.003;
+        assert!((found.mean - 1.0).abs() < allowed, "{emitters}");
+        // Drawing points of the lamp pays.
+        assert!(found.error < if emitters { 0.002 } else { 0.02 });
+    }
+}
+
+/// Points drawn from surfaces that shine, and directions that find them: two ways to the same light.
+#[test]
+fn both_ways_to_surfaces_that_shine_bring_the_same() {
+    let mut shot = Shot::sample("cornell").with("method=path spp=64 max_depth=4");
+    let scene = &mut shot.scene;
+    let texcoord = |i: usize| Vec2::new((i % 3) as f32, (i % 5) as f32 / 4.0);
+    scene.mesh.texcoords = (0..scene.mesh.positions.len()).map(texcoord).collect();
+    scene.textures = vec![Texture {
+        width: 2,
+        height: 2,
+        texels: vec![[255; 4], [40, 0, 200, 255], [0, 0, 0, 255], [0, 255, 0, 10]],
+    }];
+    let pattern = TextureRef {
+        filter: Filter::Nearest,
+        ..TextureRef::new(0)
+    };
+    // Walls that shine on both sides through a mask, beside others that mirror.
+    for material in [0, 1] {
+        scene.materials[material] = Material {
+            emission: [3.0, 2.0, 1.0],
+            double_sided: true,
+            emissive_texture: Some(pattern),
+            base_color_texture: Some(pattern),
+            alpha_cutoff: Some(0.5),
+            ..scene.materials[material].clone()
+        };
+    }
+    shot.lights.clear();
+    let plan = shot.plan();
+    let mut blind = plan.clone();
+    blind.path.as_mut().expect("paths").emitters = false;
+    type Layer = fn(&Image) -> f64;
+    let layers: [(&str, Layer); 2] = [
+        ("direct", |i| mean(&i.direct)),
+        ("indirect", |i| mean(&i.indirect())),
+    ];
+    for (name, layer) in layers {
+        let both = estimate(&shot, &plan, layer);
+        let one = estimate(&shot, &blind, layer);
+        println!("{name}: {both:?}, by directions alone {one:?}");
+        let error = both.error.hypot(one.error);
+        assert!((both.mean - one.mean).abs() < ERRORS * error, "{name}");
+        assert!(error < 0.02 * one.mean, "{name}: too much noise to tell");
+    }
+}
+
+#[test]
+fn a_picture_does_not_depend_on_how_its_samples_are_shared_out() {
+    let whole = Shot::sample("cornell").with("method=path spp=24");
+    let threads = Shot {
+        threads: 3,
+        ..whole.clone()
+    };
+    assert_eq!(whole.image(), threads.image());
+    // The first eight samples of many are those of eight.
+    let few = whole.clone().with("spp=8").image();
+    let more = whole.clone().with("spp=16").image();
+    assert_ne!(few.direct, more.direct);
+    let again = whole.with("spp=8").image();
+    assert_eq!(few, again);
+}
