@@ -12,15 +12,10 @@ pub(crate) struct Variant {
     pub(crate) every_pair: bool,
 }
 
-/// Choices of settings that not every version has; those that it has not are left out.
-const LATER: &[&str] = &[
-    "interleave=2",
-    "interleave=4",
-    "interleave=8",
-    "occlusion=sampled interleave=4",
-];
+/// Pixels along a side of a block that shares the lights out among them; without, each meets all.
+const SHARES: [u32; 3] = [2, 4, 8];
 
-/// All of them, the published setting first. Every word of clustering, density and occlusion is among them.
+/// All of them, the published setting first. Every word of clustering, density and occlusion is among them, and none twice.
 pub(crate) fn all(quick: bool) -> Vec<Variant> {
     // As in the paper: 1024 lights from maps of 512² texels, drawn from the density that the camera gives by 2048 lights of its
     // own, and shadow maps of 64² texels for each light.
@@ -36,24 +31,21 @@ pub(crate) fn all(quick: bool) -> Vec<Variant> {
     };
     let base = of(Settings::default());
     let variant = |what: String, settings: Settings| Variant {
+        every_pair: settings.occlusion == OcclusionMethod::None
+            && settings.interleave == 1
+            && settings.clustering != Clustering::Whole,
         what,
         settings,
-        every_pair: false,
     };
     let mut all = vec![
         variant(
             "as published: 19.3 ms on a GTX 970".into(),
             of(Preset::Paper2016.settings()),
         ),
-        variant(format!("our forms, occlusion {occlusion}"), base.clone()),
-        Variant {
-            what: "our forms, occlusion none".into(),
-            settings: Settings {
-                occlusion: OcclusionMethod::None,
-                ..base.clone()
-            },
-            every_pair: true,
-        },
+        variant(
+            format!("our forms: filtered, brsm, occlusion {occlusion}"),
+            base.clone(),
+        ),
     ];
     for &clustering in Clustering::ALL {
         let settings = Settings {
@@ -76,15 +68,22 @@ pub(crate) fn all(quick: bool) -> Vec<Variant> {
         };
         all.push(variant(format!("occlusion {occlusion}"), settings));
     }
-    for words in LATER {
-        let mut settings = base.clone();
-        let known = words
-            .split_whitespace()
-            .filter_map(|word| word.split_once('='))
-            .all(|(key, value)| settings.set(key, value).is_ok());
-        if known {
-            all.push(variant(words.replace('=', " "), settings));
+    for interleave in SHARES {
+        for occlusion in [occlusion, OcclusionMethod::Sampled] {
+            let settings = Settings {
+                interleave,
+                occlusion,
+                ..base.clone()
+            };
+            let what = format!("interleave {interleave}, occlusion {occlusion}");
+            all.push(variant(what, settings));
         }
     }
+    let mut seen = Vec::new();
+    all.retain(|variant| {
+        let new = !seen.contains(&variant.settings);
+        seen.push(variant.settings.clone());
+        new
+    });
     all
 }
