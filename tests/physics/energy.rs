@@ -352,3 +352,30 @@ fn texels_go_to_the_nearest_centre() {
         }
     }
 }
+
+/// However uneven the density is, square kernels together cover a few maps, and a few texels each beside it.
+#[test]
+fn squares_cover_a_few_maps_together() {
+    for name in [
+        "cornell",
+        "glossy-floor",
+        "columns",
+        "caustic-ring",
+        "roughness-row",
+    ] {
+        for lights in [16, 256, 4096, 65_536] {
+            let settings =
+                format!("rsm=128 occlusion=none clustering=filtered-box lights={lights}");
+            let frame = Shot::sample(name).size(2, 2).with(&settings).frame();
+            let vsgls = frame.vsgls.expect("clusters");
+            let cut = |c: f32, side: f32| {
+                f64::from((c + 0.5 * side).min(128.0) - (c - 0.5 * side).max(0.0))
+            };
+            let area = |k: &[f32; 4]| cut(k[1], k[3]) * cut(k[2], k[3]);
+            let sum: f64 = vsgls.kernel.iter().map(area).sum();
+            let maps = sum / (128.0 * 128.0);
+            println!("{name}, {lights} lights: {maps:.2} maps");
+            assert!(maps < 4.0, "{name}, {lights} lights: {maps}");
+        }
+    }
+}
