@@ -8,7 +8,8 @@
 //! How many texels all squares cover together: a point of the map lies in about four of them at most. Of the squares around
 //! centres in one quadrant as seen from the point, the one whose centre is farthest covers all the other centres, and holds
 //! no more than `overlap / count` of the density, in which about `overlap` centres are drawn. So the sum is about
-//! `4 overlap` maps however uneven the density is, and a few texels a kernel beside it.
+//! `4 overlap` maps at most however uneven the density is, and a few texels a kernel beside it; built-in scenes have less
+//! than one.
 
 use super::cluster::Sum;
 use super::pdf::top_level;
