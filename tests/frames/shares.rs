@@ -99,7 +99,7 @@ fn everything_that_a_surface_can_be() {
 /// Sizes below a tile, and pictures narrower than a square of shares.
 #[test]
 fn sizes_at_their_ends() {
-    for (width, height) in [(1, 1), (1, 70), (70, 1), (3, 5), (33, 17)] {
+    for (width, height) in [(1, 1), (1, 70), (33, 17)] {
         for choice in [
             "interleave=8",
             "interleave=4 occlusion=sampled",
@@ -107,7 +107,7 @@ fn sizes_at_their_ends() {
         ] {
             let shot = Shot::sample("cornell")
                 .size(width, height)
-                .with("lights=64 rsm=32")
+                .with("lights=64 rsm=16")
                 .with(choice);
             agree(
                 &format!("{width}x{height} {choice}"),

@@ -25,6 +25,7 @@ fn a_steady_frame_makes_no_buffer_and_the_same_picture() {
         "lights=16 clustering=filtered",
         "clustering=whole",
         "method=vpl rsm=4",
+        "lights=16 interleave=2 occlusion=sampled",
     ] {
         let shot = Shot::sample("cornell").with(settings);
         let first = frame(&gpu, &shot).expect("a frame");

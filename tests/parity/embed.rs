@@ -95,9 +95,11 @@ fn the_light_is_that_of_the_backend() {
         // Two draws from this density are further apart: more of them.
         "occlusion=none clustering=filtered pdf=brsm camera_lights=300 lights=1024",
         "occlusion=rays",
+        "occlusion=none interleave=4",
+        "occlusion=sampled interleave=2",
     ] {
         let plan = plan(words);
-        let scene = words.contains("rays").then_some(&scene);
+        let scene = (!words.contains("none")).then_some(&scene);
         host.frame(vsgl, scene, &plan).expect("a frame");
         let indirect = host.indirect().expect("it is there");
         assert!(

@@ -1,10 +1,12 @@
 //! What shares of the lights cost and save, counted: work, not seconds of a machine that others use too.
 
 use std::sync::{Arc, Mutex};
+use std::time::Duration;
 use vsgl_core::backend::{Backend, Senders, ShadeInputs};
 use vsgl_core::data::{GBuffer, NO_TRIANGLE, Radiance, Vsgls};
 use vsgl_core::phase::shade::Receiver;
 use vsgl_core::plan::Plan;
+use vsgl_core::render::{Observer, Phase, render};
 use vsgl_cpu::CpuBackend;
 use vsgl_cpu::block::{LANES, Receivers, vsgl};
 use vsgl_tests::render::Shot;
@@ -137,5 +139,51 @@ fn shares_of_four_by_four_save_nine_tenths_of_the_shading() {
             "{occlusion}: only {:.1} times",
             all / shares
         );
+    }
+}
+
+/// What each phase computes.
+#[derive(Default)]
+struct Watch {
+    begun: Mutex<f64>,
+    phases: Mutex<Vec<(Phase, f64)>>,
+}
+
+impl Observer for Watch {
+    fn started(&self, _: Phase) {
+        *self.begun.lock().expect("no panic") = computed().unwrap_or_default();
+    }
+
+    fn finished(&self, phase: Phase, _: Duration) {
+        let begun = *self.begun.lock().expect("no panic");
+        let taken = computed().unwrap_or_default() - begun;
+        self.phases.lock().expect("no panic").push((phase, taken));
+    }
+}
+
+/// Two cores have four seconds of computing in two. All phases but the reading of the scene share their work out evenly.
+#[test]
+fn a_frame_of_a_thousand_lights_takes_two_seconds_of_two_cores() {
+    let _alone = ALONE.lock();
+    if cfg!(debug_assertions) || computed().is_none() {
+        println!("skipped 1 test: no optimisation, or the system does not tell what was computed");
+        return;
+    }
+    for name in ["cornell", "columns"] {
+        let words = "lights=1024 rsm=512 occlusion=sampled interleave=4";
+        let shot = Shot::sample(name).size(640, 360).with(words);
+        let cpu = CpuBackend::new(2).expect("threads");
+        let scene = cpu
+            .upload(vsgl_core::data::SceneData::new(&shot.scene))
+            .expect("room");
+        let watch = Watch::default();
+        render(&cpu, &scene, &shot.lights, &shot.view, &shot.plan(), &watch).expect("a picture");
+        let phases = watch.phases.into_inner().expect("no panic");
+        let all: f64 = phases.iter().map(|(_, seconds)| seconds).sum();
+        for (phase, seconds) in &phases {
+            println!("{name} {phase}: {seconds:.2} s");
+        }
+        println!("{name} together: {all:.2} s of one core");
+        assert!(all < 4.0, "{name}: {all:.2} s of one core");
     }
 }
