@@ -249,7 +249,7 @@ impl Plan {
     /// Decides.
     ///
     /// # Errors
-    /// [`Error::Setting`] where settings contradict each other. None do as yet.
+    /// [`Error::Setting`] where settings contradict each other.
     pub fn new(facts: &SceneFacts, settings: &Settings) -> Result<Self> {
         if settings.method == Method::Path {
             return Ok(Self::of_paths(facts, settings));
