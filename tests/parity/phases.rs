@@ -67,6 +67,11 @@ struct Made {
 }
 
 fn made(gpu: &WgpuBackend, shot: &Shot) -> Made {
+    made_with(gpu, shot, |_| {})
+}
+
+/// As [`made`], with clusters from a density that is changed before.
+fn made_with(gpu: &WgpuBackend, shot: &Shot, change: impl Fn(&mut Pdf)) -> Made {
     let plan = shot.plan();
     let bounce: &BouncePlan = plan.bounce.as_ref().expect("a lit scene");
     let cluster = bounce.cluster.as_ref().expect("clusters");
@@ -97,7 +102,11 @@ fn made(gpu: &WgpuBackend, shot: &Shot) -> Made {
             cpu.pdf(&inputs, plan).expect("a density"),
         ]
     });
-    let pdf_cpu = pdf.as_ref().map(|[_, cpu]| cpu.clone());
+    let pdf_cpu = pdf.as_ref().map(|[_, cpu]| {
+        let mut changed = Pdf::clone(cpu);
+        change(&mut changed);
+        Arc::new(changed)
+    });
     let pdf_gpu = pdf_cpu
         .as_ref()
         .map(|pdf| gpu.upload(Pdf::clone(pdf)).expect("room"));
@@ -222,6 +231,45 @@ fn whole_maps_of_any_size() {
             "rsm=1", "rsm=2", "rsm=3", "rsm=17", "rsm=64", "rsm=128", "rsm=300", "rsm=512",
         ],
     );
+}
+
+/// A host's density may leave a lit map out: its texels are of no cluster.
+#[test]
+fn maps_without_density_have_no_nearest_centre() {
+    let Some(gpu) = device(Tier::Lavapipe, true, "maps without density") else {
+        return;
+    };
+    let shot = Shot::sample("many-lights:3").with("rsm=16 lights=40 clustering=nearest-world");
+    for dark in [vec![1], vec![0, 1], vec![0, 1, 2]] {
+        let made = made_with(&gpu, &shot, |pdf| {
+            let mut first = 0;
+            for level in 0..=4 {
+                let texels = 256 >> (2 * level);
+                for &map in &dark {
+                    pdf.share[map] = 0;
+                    pdf.weight[first + map * texels..][..texels].fill(0.0);
+                }
+                first += 3 * texels;
+            }
+        });
+        let [tested, reference] = &made.vsgls;
+        same(
+            &format!("{dark:?} without density"),
+            &**tested,
+            &**reference,
+        );
+        let dark_label = |map: usize| {
+            let labels = &reference.label[256 * map..][..256];
+            labels.iter().all(|l| *l == u32::MAX)
+        };
+        for map in 0..3 {
+            assert_eq!(
+                dark_label(map),
+                dark.contains(&map),
+                "map {map} of {dark:?}"
+            );
+        }
+    }
 }
 
 #[test]
