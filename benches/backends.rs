@@ -220,6 +220,7 @@ fn shade_on<B: Backend>(c: &mut Criterion, backend: &B, name: &str) {
                     view: &set.view,
                     lights: &set.scene.lights,
                     senders: Senders::Vsgls(&vsgls),
+                    occlusion: None,
                 };
                 let made = backend.shade(black_box(&inputs), &set.plan.shade, &());
                 backend.finish().expect("a device");

@@ -295,6 +295,7 @@ fn two_lights(c: &mut Criterion) {
                 view,
                 lights,
                 senders,
+                occlusion: None,
             };
             let made = set.backend.shade(black_box(&inputs), &plan.shade, &());
             made.expect("cpu")
@@ -341,6 +342,7 @@ fn shade(group: &mut Group<'_>, set: &Set, name: &str, plan: &Plan) {
                 view: &set.view,
                 lights: &set.scene.lights,
                 senders: Senders::Vsgls(&vsgls),
+                occlusion: None,
             };
             set.backend
                 .shade(black_box(&inputs), &plan.shade, &())

@@ -26,6 +26,7 @@ fn bytes(frame: &Frame<CpuBackend>) -> Vec<(String, Vec<u8>)> {
     add(&mut all, frame.rsm.as_deref());
     add(&mut all, frame.pdf.as_deref());
     add(&mut all, frame.vsgls.as_deref());
+    add(&mut all, frame.occlusion.as_deref());
     add(&mut all, Some(&*frame.gbuffer));
     add(&mut all, Some(&*frame.radiance));
     add(&mut all, Some(&*frame.image));

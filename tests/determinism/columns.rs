@@ -26,6 +26,7 @@ fn phases_by_hand_with_copies_between_make_the_same_picture() {
     for settings in [
         "clustering=partition",
         "clustering=filtered",
+        "occlusion=ism map_points=500 map_size=9",
         "clustering=filtered pdf=brsm camera_lights=64",
         "clustering=whole",
         "clustering=nearest-world",
@@ -58,12 +59,17 @@ fn phases_by_hand_with_copies_between_make_the_same_picture() {
             &b.cluster(&scene, &rsm, pdf.as_ref(), cluster)
                 .expect("clusters"),
         );
+        let maps = bounce
+            .occlusion
+            .as_ref()
+            .map(|p| copied(&b, &b.occlusion(&scene, &vsgls, p).expect("shadow maps")));
         let inputs = ShadeInputs {
             scene: &scene,
             gbuffer: &gbuffer,
             view: &shot.view,
             lights: &shot.lights,
             senders: Senders::Vsgls(&vsgls),
+            occlusion: maps.as_ref(),
         };
         let radiance = copied(&b, &b.shade(&inputs, &plan.shade, &()).expect("light"));
         let image = copied(

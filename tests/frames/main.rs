@@ -3,6 +3,7 @@
 //! In strict mode every bit agrees on software drivers. The ordinary path is what users run.
 
 mod edges;
+mod maps;
 mod paths;
 mod shares;
 

@@ -4,10 +4,10 @@ use std::ops::Range;
 use std::sync::Arc;
 use vsgl_core::Result;
 use vsgl_core::backend::{Backend, PdfInputs, Senders, ShadeInputs};
-use vsgl_core::data::{Columns, GBuffer, Image, Pdf, Radiance, Rsm, SceneData, Vsgls};
+use vsgl_core::data::{Columns, GBuffer, Image, Occlusion, Pdf, Radiance, Rsm, SceneData, Vsgls};
 use vsgl_core::parity::{Origin, Party, Stage, Step, Subject, Tolerance, chain};
 use vsgl_core::plan::{
-    ClusterPlan, GBufferPlan, PathPlan, PdfPlan, ReconstructPlan, RsmPlan, ShadePlan,
+    ClusterPlan, GBufferPlan, OcclusionPlan, PathPlan, PdfPlan, ReconstructPlan, RsmPlan, ShadePlan,
 };
 use vsgl_core::render::{Observer, Phase, View};
 use vsgl_core::scene::Light;
@@ -97,6 +97,18 @@ impl Backend for Faulty {
         self.spoil(Phase::Cluster, sound, spoil)
     }
 
+    fn occlusion(
+        &self,
+        scene: &Arc<SceneData>,
+        vsgls: &Arc<Vsgls>,
+        plan: &OcclusionPlan,
+    ) -> Result<Arc<Occlusion>> {
+        let sound = self.cpu.occlusion(scene, vsgls, plan);
+        // A little nearer is open all the same.
+        let spoil = |o: &mut Occlusion| o.depth.iter_mut().for_each(|d| *d *= 0.5);
+        self.spoil(Phase::Occlusion, sound, spoil)
+    }
+
     fn shade(
         &self,
         inputs: &ShadeInputs<'_, Self>,
@@ -113,6 +125,7 @@ impl Backend for Faulty {
                 Senders::Vsgls(vsgls) => Senders::Vsgls(vsgls),
                 Senders::Vpls(rsm) => Senders::Vpls(rsm),
             },
+            occlusion: inputs.occlusion,
         };
         let sound = self.cpu.shade(&inputs, plan, observer);
         let spoil = |r: &mut Radiance| r.direct.iter_mut().flatten().for_each(|c| *c *= 1.01);
@@ -227,12 +240,13 @@ fn equal_backends_agree_in_every_phase_of_every_plan() {
 fn a_fault_shows_in_its_phase_and_in_the_frame_alone() {
     let shot = Shot::sample("cornell")
         .size(16, 9)
-        .with("clustering=filtered interleave=2");
+        .with("clustering=filtered occlusion=ism lights=32");
     for fault in [
         Phase::GBuffer,
         Phase::Rsm,
         Phase::Pdf,
         Phase::Cluster,
+        Phase::Occlusion,
         Phase::Shade,
         Phase::Reconstruct,
         Phase::Resolve,

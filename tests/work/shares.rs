@@ -44,6 +44,7 @@ fn shade(shot: &Shot, runs: usize) -> Shaded {
         view: &shot.view,
         lights: &shot.lights,
         senders: Senders::Vsgls(&vsgls),
+        occlusion: None,
     };
     let mut seconds = None;
     let mut radiance = None;

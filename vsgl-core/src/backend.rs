@@ -1,9 +1,9 @@
 //! What a backend must be able to do: one method a phase.
 
-use crate::data::{Columns, GBuffer, Image, Pdf, Radiance, Rsm, SceneData, Vsgls};
+use crate::data::{Columns, GBuffer, Image, Occlusion, Pdf, Radiance, Rsm, SceneData, Vsgls};
 use crate::error::Result;
 use crate::plan::{
-    ClusterPlan, GBufferPlan, PathPlan, PdfPlan, ReconstructPlan, RsmPlan, ShadePlan,
+    ClusterPlan, GBufferPlan, OcclusionPlan, PathPlan, PdfPlan, ReconstructPlan, RsmPlan, ShadePlan,
 };
 use crate::render::{Observer, View};
 use crate::scene::Light;
@@ -71,6 +71,16 @@ pub trait Backend: Sized {
         pdf: Option<&Self::Res<Pdf>>,
         plan: &ClusterPlan,
     ) -> Result<Self::Res<Vsgls>>;
+    /// Shadow maps of the virtual lights.
+    ///
+    /// # Errors
+    /// If the device failed.
+    fn occlusion(
+        &self,
+        scene: &Self::Res<SceneData>,
+        vsgls: &Self::Res<Vsgls>,
+        plan: &OcclusionPlan,
+    ) -> Result<Self::Res<Occlusion>>;
     /// Light to the eye from every sample. Tells the observer how far it is, and asks whether to go on.
     ///
     /// # Errors
@@ -140,6 +150,8 @@ pub struct ShadeInputs<'a, B: Backend> {
     pub lights: &'a [Light],
     /// Lights that shine on them by one bounce.
     pub senders: Senders<'a, B>,
+    /// Shadow maps of the clusters, where the plan has them.
+    pub occlusion: Option<&'a B::Res<Occlusion>>,
 }
 
 /// Where indirect light comes from.

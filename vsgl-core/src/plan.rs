@@ -75,6 +75,8 @@ pub struct BouncePlan {
     pub pdf: Option<PdfPlan>,
     /// The clusters; none with the method `vpl`, which shades from the texels themselves.
     pub cluster: Option<ClusterPlan>,
+    /// Shadow maps of the clusters.
+    pub occlusion: Option<OcclusionPlan>,
 }
 
 /// The reflective shadow maps.
@@ -166,6 +168,26 @@ impl PathPlan {
     /// Paths that are added up in one piece, in f32; pieces are added up in f64 in the order of samples, so that the sum
     /// does not depend on how the work was shared out.
     pub const PIECE: u32 = 8;
+}
+
+/// Shadow maps of the clusters.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct OcclusionPlan {
+    /// Texels along a side of a map.
+    pub side: u32,
+    /// Draws of points or of triangles for each map.
+    pub points: u32,
+    /// Triangles are cut into pieces of about a texel, instead of points drawn on them.
+    pub tessellated: bool,
+    /// Points in the holes of alpha masks are none.
+    pub masks: bool,
+}
+
+impl OcclusionPlan {
+    /// Most texels of all maps together: 64 MB.
+    pub const TEXELS_MAX: u64 = 1 << 24;
+    /// Most points of all maps together.
+    pub const POINTS_MAX: u64 = 1 << 26;
 }
 
 /// Shading.
@@ -333,6 +355,16 @@ impl Plan {
         if settings.method == Method::Vpl {
             texels_are_the_reference(settings)?;
         }
+        if settings.interleave > 1 && settings.occlusion.has_maps() {
+            return Err(Error::setting(
+                "interleave",
+                format!(
+                    "shares of the lights do not read the maps of `{}` yet",
+                    settings.occlusion
+                ),
+                "set `interleave` to `1`, or `occlusion` to `rays`, `sampled` or `none`",
+            ));
+        }
         let clusters = lit && settings.method == Method::Vsgl;
         if lit && !clusters {
             reasons.no("clusters", "the method `vpl` takes every texel for a light");
@@ -379,10 +411,15 @@ impl Plan {
                     settings.occlusion != OcclusionMethod::None,
                     "switched off: indirect light passes through walls",
                 )],
-                if settings.occlusion == OcclusionMethod::Sampled {
-                    "a few rays from each pixel, to virtual lights chosen by what they bring"
-                } else {
-                    "one ray from each pixel to each virtual light"
+                match settings.occlusion {
+                    OcclusionMethod::Sampled => {
+                        "a few rays from each pixel, to virtual lights chosen by what they bring"
+                    }
+                    OcclusionMethod::Ism => "a shadow map of points for each virtual light",
+                    OcclusionMethod::IsmTessellated => {
+                        "a shadow map of pieces of triangles for each virtual light"
+                    }
+                    _ => "one ray from each pixel to each virtual light",
                 },
             );
         let important = samples
@@ -394,6 +431,16 @@ impl Plan {
                 )],
                 "virtual lights from what the camera sees say which texels matter to it",
             );
+        let shadows = clusters
+            && occluded
+            && reasons.decide(
+                "shadow maps",
+                &[(
+                    settings.occlusion.has_maps(),
+                    "rays say what blocks indirect light",
+                )],
+                "a map above each virtual light says what blocks its light",
+            );
         let lights = if whole {
             maps.saturating_add(u32::from(shines))
         } else {
@@ -404,6 +451,7 @@ impl Plan {
         } else {
             1
         };
+        let shadows = shadows.then(|| reasons.shadow_maps(settings, lights, facts.masks));
         let shade = ShadePlan {
             bounce: lit,
             emitters: shines,
@@ -449,6 +497,7 @@ impl Plan {
                 anisotropic: stretching,
                 apart: whole,
             }),
+            occlusion: shadows,
         });
         let sampled = shade.occlusion == OcclusionMethod::Sampled;
         let reconstruct = lit
@@ -611,6 +660,16 @@ fn texels_are_the_reference(settings: &Settings) -> Result<()> {
             remedy("occlusion` to `rays"),
         ));
     }
+    if settings.occlusion.has_maps() {
+        return Err(Error::setting(
+            "occlusion",
+            format!(
+                "`{}` has a map for each virtual light, and the method `vpl` has none but texels",
+                settings.occlusion
+            ),
+            remedy("occlusion` to `rays"),
+        ));
+    }
     Ok(())
 }
 
@@ -740,6 +799,40 @@ impl Reasons {
             why,
         });
         side
+    }
+
+    /// Sides and points of the shadow maps: as wanted, but halved until all of them together are few enough.
+    fn shadow_maps(&mut self, settings: &Settings, count: u32, masks: bool) -> OcclusionPlan {
+        let maps = u64::from(count);
+        let texels = |side: u32| maps * u64::from(side) * u64::from(side);
+        let (mut side, mut points) = (settings.map_size, settings.map_points);
+        while side > Settings::MAP_MIN && texels(side) > OcclusionPlan::TEXELS_MAX {
+            side = (side / 2).max(Settings::MAP_MIN);
+        }
+        while points > 1 && maps * u64::from(points) > OcclusionPlan::POINTS_MAX {
+            points /= 2;
+        }
+        let (wanted, of) = (settings.map_size, settings.map_points);
+        let why = if (side, points) == (wanted, of) {
+            format!("{maps} of {side}² texels and {points} points, as wanted")
+        } else {
+            format!(
+                "{maps} of {wanted}² texels and {of} points would have more than {} or {} in all: {side}² and {points} each",
+                OcclusionPlan::TEXELS_MAX,
+                OcclusionPlan::POINTS_MAX
+            )
+        };
+        self.0.push(Reason {
+            topic: "smaller shadow maps",
+            runs: (side, points) != (wanted, of),
+            why,
+        });
+        OcclusionPlan {
+            side,
+            points,
+            tessellated: settings.occlusion == OcclusionMethod::IsmTessellated,
+            masks,
+        }
     }
 
     fn no(&mut self, topic: &'static str, why: &str) {

@@ -1,7 +1,7 @@
 //! The order of the phases, once for all backends.
 
 use crate::backend::{Backend, PdfInputs, Senders, ShadeInputs};
-use crate::data::{GBuffer, Image, Pdf, Radiance, Rsm, SceneData, Vsgls};
+use crate::data::{GBuffer, Image, Occlusion, Pdf, Radiance, Rsm, SceneData, Vsgls};
 use crate::error::{Error, Result};
 use crate::plan::Plan;
 use crate::scene::{Camera, Light};
@@ -102,6 +102,8 @@ pub enum Phase {
     Pdf,
     /// Virtual lights from it.
     Cluster,
+    /// What blocks their light.
+    Occlusion,
     /// What the camera sees.
     GBuffer,
     /// Light to the eye.
@@ -120,6 +122,7 @@ impl fmt::Display for Phase {
             Self::Rsm => "rsm",
             Self::Pdf => "pdf",
             Self::Cluster => "cluster",
+            Self::Occlusion => "occlusion",
             Self::GBuffer => "gbuffer",
             Self::Shade => "shade",
             Self::Reconstruct => "reconstruct",
@@ -155,6 +158,8 @@ pub struct Frame<B: Backend> {
     pub pdf: Option<B::Res<Pdf>>,
     /// Virtual lights.
     pub vsgls: Option<B::Res<Vsgls>>,
+    /// Their shadow maps.
+    pub occlusion: Option<B::Res<Occlusion>>,
     /// What the camera sees.
     pub gbuffer: B::Res<GBuffer>,
     /// Light to the eye, a sample.
@@ -163,7 +168,7 @@ pub struct Frame<B: Backend> {
     pub image: B::Res<Image>,
 }
 
-/// Renders a picture: RSM → G-buffer → PDF → cluster → shade → reconstruct → resolve, as far as the plan wants them; or paths,
+/// Renders a picture: RSM → G-buffer → PDF → cluster → occlusion → shade → reconstruct → resolve, as far as the plan wants them; or paths,
 /// with the method `path`.
 ///
 /// # Errors
@@ -204,6 +209,12 @@ pub fn render<B: Backend>(
         })?),
         _ => None,
     };
+    let occlusion = match (&vsgls, bounce.and_then(|p| p.occlusion.as_ref())) {
+        (Some(vsgls), Some(p)) => Some(run(observer, Phase::Occlusion, || {
+            backend.occlusion(scene, vsgls, p)
+        })?),
+        _ => None,
+    };
     let senders = match (&vsgls, &rsm) {
         (Some(vsgls), _) => Senders::Vsgls(vsgls),
         (None, Some(rsm)) => Senders::Vpls(rsm),
@@ -215,6 +226,7 @@ pub fn render<B: Backend>(
         view,
         lights,
         senders,
+        occlusion: occlusion.as_ref(),
     };
     let radiance = run(observer, Phase::Shade, || {
         backend.shade(&inputs, &plan.shade, observer)
@@ -232,6 +244,7 @@ pub fn render<B: Backend>(
         rsm,
         pdf,
         vsgls,
+        occlusion,
         gbuffer,
         radiance,
         image,

@@ -38,6 +38,10 @@ pub struct Settings {
     pub rays: u32,
     /// Side of the square of samples that share out the virtual lights: 1, 2, 4 or 8; 1 gives every sample all of them.
     pub interleave: u32,
+    /// Texels along a side of each imperfect shadow map: [`Settings::MAP_MIN`] ..= [`Settings::MAP_MAX`].
+    pub map_size: u32,
+    /// Points of each imperfect shadow map: 1 ..= [`Settings::POINTS_MAX`].
+    pub map_points: u32,
     /// What decides which triangle the camera sees.
     pub primary: Primary,
     /// Paths through each pixel, with the method `path`: 1 ..= [`Settings::SPP_MAX`].
@@ -66,6 +70,8 @@ impl Default for Settings {
             occlusion: OcclusionMethod::Rays,
             rays: 8,
             interleave: 1,
+            map_size: 64,
+            map_points: 8192,
             primary: Primary::Rays,
             spp: 64,
             max_depth: 3,
@@ -237,8 +243,20 @@ choice! {
         /// A few rays from each pixel, to clusters chosen by what they bring to the eye; the share of open ones, taken together
         /// over neighbours, times the light without shadows.
         Sampled = "sampled",
+        /// Imperfect shadow maps of random points (Ritschel et al. 2008): a small map for each cluster.
+        Ism = "ism",
+        /// Imperfect shadow maps of triangles cut into pieces (Barak et al. 2013, Tokuyoshi 2016).
+        IsmTessellated = "ism-tessellated",
     }
 }
+
+impl OcclusionMethod {
+    /// Whether shadow maps decide.
+    pub fn has_maps(self) -> bool {
+        matches!(self, Self::Ism | Self::IsmTessellated)
+    }
+}
+
 choice! {
     /// What decides which triangle the camera sees.
     pub enum Primary {
@@ -310,6 +328,12 @@ impl Settings {
     pub const SPP_MAX: u32 = 1 << 24;
     /// Longest paths.
     pub const DEPTH_MAX: u32 = 64;
+    /// Smallest side of an imperfect shadow map.
+    pub const MAP_MIN: u32 = 8;
+    /// Largest side of an imperfect shadow map.
+    pub const MAP_MAX: u32 = 256;
+    /// Most points of an imperfect shadow map.
+    pub const POINTS_MAX: u32 = 65_536;
     /// All keys, in the order of [`Settings::entries`].
     pub const KEYS: &'static [&'static str] = &[
         "method",
@@ -328,6 +352,8 @@ impl Settings {
         "occlusion",
         "rays",
         "interleave",
+        "map_size",
+        "map_points",
         "primary",
         "spp",
         "max_depth",
@@ -352,6 +378,8 @@ impl Settings {
             self.occlusion.to_string(),
             self.rays.to_string(),
             self.interleave.to_string(),
+            self.map_size.to_string(),
+            self.map_points.to_string(),
             self.primary.to_string(),
             self.spp.to_string(),
             self.max_depth.to_string(),
@@ -394,6 +422,8 @@ impl Settings {
             }
             "rays" => self.rays = integer(key, value, 1, Self::RAYS_MAX)?,
             "interleave" => self.interleave = side(key, value)?,
+            "map_size" => self.map_size = integer(key, value, Self::MAP_MIN, Self::MAP_MAX)?,
+            "map_points" => self.map_points = integer(key, value, 1, Self::POINTS_MAX)?,
             "primary" => self.primary = word(key, value, Primary::from_word, Primary::WORDS)?,
             "spp" => self.spp = integer(key, value, 1, Self::SPP_MAX)?,
             "max_depth" => self.max_depth = integer(key, value, 1, Self::DEPTH_MAX)?,

@@ -32,9 +32,9 @@ mod phase;
 use std::ops::Range;
 use std::sync::Arc;
 use vsgl_core::backend::{Backend, PdfInputs, ShadeInputs};
-use vsgl_core::data::{Columns, GBuffer, Image, LightRecord, Pdf, Radiance, Rsm, SceneData, Vsgls};
+use vsgl_core::data::{Columns, GBuffer, Image, LightRecord, Occlusion, Pdf, Radiance, Rsm, SceneData, Vsgls};
 use vsgl_core::plan::{
-    ClusterPlan, GBufferPlan, PathPlan, PdfPlan, ReconstructPlan, RsmPlan, ShadePlan,
+    ClusterPlan, GBufferPlan, OcclusionPlan, PathPlan, PdfPlan, ReconstructPlan, RsmPlan, ShadePlan,
 };
 use vsgl_core::render::{Observer, View};
 use vsgl_core::scene::Light;
@@ -132,6 +132,18 @@ impl Backend for CpuBackend {
         Ok(Arc::new(self.pool.install(|| {
             phase::cluster::run(scene, rsm, pdf.map(|p| &**p), plan)
         })))
+    }
+
+    fn occlusion(
+        &self,
+        scene: &Arc<SceneData>,
+        vsgls: &Arc<Vsgls>,
+        plan: &OcclusionPlan,
+    ) -> Result<Arc<Occlusion>> {
+        Ok(Arc::new(
+            self.pool
+                .install(|| phase::occlusion::run(scene, vsgls, plan)),
+        ))
     }
 
     fn shade(

@@ -9,9 +9,9 @@ use crate::timing::{Clock, Timings};
 use std::ops::Range;
 use std::time::Instant;
 use vsgl_core::backend::{Backend, PdfInputs, ShadeInputs};
-use vsgl_core::data::{Columns, GBuffer, Image, Pdf, Radiance, Rsm, SceneData, Vsgls};
+use vsgl_core::data::{Columns, GBuffer, Image, Occlusion, Pdf, Radiance, Rsm, SceneData, Vsgls};
 use vsgl_core::plan::{
-    ClusterPlan, GBufferPlan, PathPlan, PdfPlan, ReconstructPlan, RsmPlan, ShadePlan,
+    ClusterPlan, GBufferPlan, OcclusionPlan, PathPlan, PdfPlan, ReconstructPlan, RsmPlan, ShadePlan,
 };
 use vsgl_core::render::{Observer, Phase, View};
 use vsgl_core::scene::Light;
@@ -129,6 +129,17 @@ impl Backend for WgpuBackend {
     ) -> Result<WgpuRes<Vsgls>> {
         self.phase(Phase::Cluster, |r| {
             passes::cluster::record(r, scene, rsm, pdf, plan)
+        })
+    }
+
+    fn occlusion(
+        &self,
+        scene: &WgpuRes<SceneData>,
+        vsgls: &WgpuRes<Vsgls>,
+        plan: &OcclusionPlan,
+    ) -> Result<WgpuRes<Occlusion>> {
+        self.phase(Phase::Occlusion, |r| {
+            passes::occlusion::record(r, scene, vsgls, plan)
         })
     }
 

@@ -237,11 +237,22 @@ impl Context {
             let made = passes::cluster::record(&mut recorder, scene, rsm, pdf.as_ref(), plan)?;
             vsgls = Some(made);
         }
+        let mut maps = None;
+        if let (Some(plan), Some(vsgls)) = (&bounce.occlusion, &vsgls) {
+            let mut recorder = Recorder::new(self, encoder, Phase::Occlusion);
+            maps = Some(passes::occlusion::record(
+                &mut recorder,
+                scene,
+                vsgls,
+                plan,
+            )?);
+        }
         let shaded = ShadeInputs::<WgpuBackend> {
             scene,
             gbuffer: inputs.gbuffer,
             view: &view,
             lights: &[],
+            occlusion: maps.as_ref(),
             senders: vsgls.as_ref().map_or(Senders::Vpls(rsm), Senders::Vsgls),
         };
         let shading = passes::shade::Shading::new(self, &shaded, &plan.shade, Submits::Host)?;

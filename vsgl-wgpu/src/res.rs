@@ -272,7 +272,7 @@ impl<T: Columns> WgpuRes<T> {
             });
         }
         let mut head = self.head.clone();
-        if let (Some(count), [first]) = (count, &mut head[..]) {
+        if let (Some(count), [first, ..]) = (count, &mut head[..]) {
             *first = count as u32;
         }
         let slices: Vec<&[u8]> = bytes.iter().map(Vec::as_slice).collect();

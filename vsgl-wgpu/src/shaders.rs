@@ -50,6 +50,7 @@ pub const MODULES: &[(&str, &str)] = modules![
     "entry/importance",
     "entry/leaves",
     "entry/nearest",
+    "entry/occlusion",
     "entry/partition",
     "entry/path",
     "entry/pdf",
@@ -79,6 +80,7 @@ pub const MODULES: &[(&str, &str)] = modules![
     "phase/direct",
     "phase/emit",
     "phase/facing",
+    "phase/fill",
     "phase/filtered",
     "phase/filtered_box",
     "phase/footprint",
@@ -86,8 +88,10 @@ pub const MODULES: &[(&str, &str)] = modules![
     "phase/importance",
     "phase/interleave",
     "phase/mask",
+    "phase/lift",
     "phase/nearest",
     "phase/normal_map",
+    "phase/occlusion",
     "phase/partition",
     "phase/path",
     "phase/pdf",
@@ -97,6 +101,7 @@ pub const MODULES: &[(&str, &str)] = modules![
     "phase/rsm",
     "phase/sampled",
     "phase/shade",
+    "phase/splat",
     "phase/surface",
     "phase/texture",
     "phase/unit",
@@ -172,9 +177,7 @@ const fn words<T>() -> u32 {
 fn header() -> String {
     use vsgl_core::data::{self, map_kind};
     use vsgl_core::phase::{
-        bsdf, cluster, direct, facing, filtered_box, footprint, importance, interleave, nearest,
-        normal_map, partition, path, pdf, reconstruct, rsm, sampled, shade, surface, texture,
-        whole,
+        bsdf, cluster, direct, facing, fill, filtered_box, footprint, importance, interleave, nearest, normal_map, occlusion, partition, path, pdf, reconstruct, rsm, sampled, shade, splat, surface, texture, whole,
     };
     let floats: &[(&str, f32)] = &[
         ("ALPHA_MIN", surface::ALPHA_MIN),
@@ -206,6 +209,15 @@ fn header() -> String {
         ("SLOPE_MAX", reconstruct::SLOPE_MAX),
         ("TURN_MAX", reconstruct::TURN_MAX),
         ("ROUGHNESS_FALL", reconstruct::ROUGHNESS_FALL),
+        ("FILL_CONSISTENT", fill::CONSISTENT),
+        ("OCCLUSION_BIAS", occlusion::BIAS),
+        ("SPLAT_BACK", splat::BACK),
+        ("SPLAT_OVERLAP", splat::OVERLAP),
+        ("SPLAT_PIECES", splat::PIECES),
+        ("SPLAT_REACH", splat::REACH),
+        ("SPLAT_TEXELS_A_RADIAN", splat::TEXELS_A_RADIAN),
+        ("SPLAT_THIRD", splat::THIRD),
+        ("SPLAT_TWO_THIRDS", splat::TWO_THIRDS),
     ];
     let integers: &[(&str, u32)] = &[
         ("NO_TRIANGLE", data::NO_TRIANGLE),
@@ -239,6 +251,7 @@ fn header() -> String {
         ("STEP_X", sampled::STEP_X),
         ("STEP_Y", sampled::STEP_Y),
         ("RAYS_MAX", vsgl_core::settings::Settings::RAYS_MAX),
+        ("SPLAT_PIECES_MAX", splat::PIECES_MAX),
     ];
     let mut text = String::new();
     for (name, value) in floats {

@@ -34,6 +34,8 @@ columns! {
         node: BvhNode,
         /// Corners of each triangle, three after three \[m\].
         corner: [f32; 9],
+        /// For points drawn on surfaces: share of each triangle and all before it, in 2⁻³²; see `scene/shares.rs`.
+        share: u32,
         /// Shading normals at the corners.
         corner_normal: [f32; 9],
         /// Texture coordinates at the corners. Empty where no texture reads them.

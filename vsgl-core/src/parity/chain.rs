@@ -4,7 +4,7 @@ use super::compare::{Origin, Side, agreement, compare};
 use super::tolerance::Tolerance;
 use super::verdict::Comparison;
 use crate::backend::{Backend, PdfInputs, Senders, ShadeInputs};
-use crate::data::{Columns, GBuffer, Image, Pdf, Rsm, SceneData, Vsgls};
+use crate::data::{Columns, GBuffer, Image, Occlusion, Pdf, Rsm, SceneData, Vsgls};
 use crate::error::{Error, Result};
 use crate::plan::{PathPlan, Plan};
 use crate::render::{Observer, Phase, View, render};
@@ -116,12 +116,14 @@ pub fn chain<R: Backend, T: Backend>(
         return Ok(run.steps);
     }
     let senders = run.senders(&scene, &gbuffer, subject)?;
+    let maps = run.maps(&scene, &senders, plan)?;
     let inputs = ShadeInputs {
         scene: &scene.reference,
         gbuffer: &gbuffer.reference,
         view,
         lights,
         senders: senders.reference(),
+        occlusion: maps.as_ref().map(|maps| &maps.reference),
     };
     let tested_inputs = ShadeInputs {
         scene: &scene.tested,
@@ -129,6 +131,7 @@ pub fn chain<R: Backend, T: Backend>(
         view,
         lights,
         senders: senders.tested(),
+        occlusion: maps.as_ref().map(|maps| &maps.tested),
     };
     let radiance = run.phase(
         Phase::Shade,
@@ -149,7 +152,7 @@ pub fn chain<R: Backend, T: Backend>(
         || t.resolve(&gbuffer.tested, &radiance.tested, view),
     )?;
     // Room for the frames.
-    drop((senders, gbuffer, radiance));
+    drop((senders, maps, gbuffer, radiance));
     run.frame(&scene, subject)?;
     Ok(run.steps)
 }
@@ -296,6 +299,26 @@ impl<R: Backend, T: Backend> Run<'_, R, T> {
             || t.cluster(&scene.tested, &rsm.tested, densities.1, plan),
         )?;
         Ok(Twins::Vsgls(vsgls))
+    }
+
+    /// The shadow maps of the clusters, if the plan has them.
+    fn maps(
+        &mut self,
+        scene: &Twin<R, T, SceneData>,
+        senders: &Twins<R, T>,
+        plan: &Plan,
+    ) -> Result<Option<Twin<R, T, Occlusion>>> {
+        let (r, t) = (self.reference.backend, self.tested.backend);
+        let wanted = plan.bounce.as_ref().and_then(|b| b.occlusion.as_ref());
+        let (Twins::Vsgls(vsgls), Some(plan)) = (senders, wanted) else {
+            return Ok(None);
+        };
+        let maps = self.phase(
+            Phase::Occlusion,
+            || r.occlusion(&scene.reference, &vsgls.reference, plan),
+            || t.occlusion(&scene.tested, &vsgls.tested, plan),
+        )?;
+        Ok(Some(maps))
     }
 
     /// The whole pipeline on both.

@@ -65,7 +65,7 @@ const SUMS: &[(&str, usize, Kind)] = &[
 #[rustfmt::skip]
 const TABLE: &[Row] = {
     use Kind::{Decision, Level, Light, Magnitudes, Numbers, Points, Vector, Whole};
-    use Layout::{Lights, Maps, Picture, Pyramid, TexelNumbers, Texels};
+    use Layout::{MapTexels, Lights, Maps, Picture, Pyramid, TexelNumbers, Texels};
     &[
         ("gbuffer", "triangle", Picture, &[("", 1, Decision)]),
         ("gbuffer", "position", Picture, &[("position", 3, Points), ("depth", 1, Points)]),
@@ -116,6 +116,7 @@ const TABLE: &[Row] = {
         ]),
         ("vsgls", "texel", Lights, &[("", 1, Decision)]),
         ("vsgls", "label", TexelNumbers, &[("", 1, Light)]),
+        ("occlusion", "depth", MapTexels, &[("", 1, Numbers)]),
         ("vsgls", "kernel", Lights, &[("map", 1, Whole), ("centre", 2, Whole), ("side", 1, Level)]),
     ]
 };
@@ -151,7 +152,7 @@ pub(super) fn meaning(resource: &str, column: &Column<'_>) -> Meaning {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::data::{Columns, GBuffer, Image, Pdf, Radiance, Rsm, Vsgls};
+    use crate::data::{Columns, GBuffer, Image, Occlusion, Pdf, Radiance, Rsm, Vsgls};
 
     /// Every column of the resource has a row, lanes add up, and integers are decisions.
     fn check<T: Columns + Default>(rows: &mut usize) {
@@ -184,6 +185,7 @@ mod tests {
         check::<Rsm>(&mut rows);
         check::<Pdf>(&mut rows);
         check::<Vsgls>(&mut rows);
+        check::<Occlusion>(&mut rows);
         assert_eq!(rows, TABLE.len(), "rows of columns that are no more");
     }
 }

@@ -66,6 +66,8 @@ pub(super) enum Layout {
     Texels,
     /// As [`Layout::Texels`], of a resource that does not know the side.
     TexelNumbers,
+    /// Square maps one after the other; the head is the number of maps and their side.
+    MapTexels,
     /// Levels of square maps; the head is the side of level 0 and the number of maps.
     Pyramid,
     /// One entry a map.
@@ -88,6 +90,10 @@ impl Layout {
             },
             Self::Texels => {
                 let [map, x, y] = square(number(0), index);
+                Place::Texel { map, x, y }
+            }
+            Self::MapTexels => {
+                let [map, x, y] = square(number(1), index);
                 Place::Texel { map, x, y }
             }
             Self::TexelNumbers => Place::Number(entry),

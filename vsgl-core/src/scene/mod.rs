@@ -13,6 +13,7 @@ mod material;
 mod prepare;
 mod pyramid;
 pub mod samples;
+mod shares;
 mod source;
 
 pub use camera::Camera;

@@ -2,6 +2,7 @@
 
 use super::emitters;
 use super::pyramid::{self, srgb_to_linear};
+use super::shares;
 use super::{Filter, Material, Mesh, Scene, Slot, TextureRef, Wrap};
 use crate::data::{
     DOUBLE_SIDED, MIPS, MaterialRecord, NEAREST, NO_TEXTURE, SECOND_SET, SceneData, TextureRecord,
@@ -78,6 +79,7 @@ impl SceneData {
                 order().map(corners).collect()
             }
         };
+        let corner: Vec<[f32; 9]> = order().map(|i| corners[i]).collect();
         let data = Self {
             lift_bits: (LIFT_LEAST * (high - low).length()).to_bits(),
             low_x_bits: low.x.to_bits(),
@@ -86,7 +88,8 @@ impl SceneData {
             high_x_bits: high.x.to_bits(),
             high_y_bits: high.y.to_bits(),
             high_z_bits: high.z.to_bits(),
-            corner: order().map(|i| corners[i]).collect(),
+            share: shares::of(&corner),
+            corner,
             corner_normal: order()
                 .map(|i| spread(&mesh.triangles[i], |v| mesh.normals[v].to_array()))
                 .collect(),

@@ -73,6 +73,11 @@ impl Receivers {
         all
     }
 
+    /// Their positions.
+    pub(crate) fn position(&self) -> &Vec3Lanes {
+        &self.position
+    }
+
     #[inline(always)]
     fn glossy(&self, lane: usize) -> GlossyView {
         let r = self.lane(lane);

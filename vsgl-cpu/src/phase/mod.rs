@@ -8,6 +8,7 @@ pub(crate) mod filtered;
 pub(crate) mod gbuffer;
 pub(crate) mod importance;
 pub(crate) mod nearest;
+pub(crate) mod occlusion;
 pub(crate) mod partition;
 pub(crate) mod path;
 pub(crate) mod pdf;

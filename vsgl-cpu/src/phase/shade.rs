@@ -2,6 +2,7 @@
 
 use super::band;
 use super::block::{self, LANES, Receivers, Sums};
+use super::occlusion::{self, Lanes};
 use super::sampled::{self, ColorLanes, Contributions};
 use crate::CpuBackend;
 use glam::Vec3;
@@ -12,8 +13,8 @@ use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use vsgl_core::backend::{Senders, ShadeInputs};
 use vsgl_core::data::{
-    GBuffer, LightRecord, NO_TRIANGLE, Radiance, Rsm, SampleSums, SceneData, Target, Vsgls,
-    map_kind,
+    GBuffer, LightRecord, NO_TRIANGLE, Occlusion, Radiance, Rsm, SampleSums, SceneData, Target,
+    Vsgls, map_kind,
 };
 use vsgl_core::geom::{Opaque, any_hit_block};
 use vsgl_core::phase::direct;
@@ -43,6 +44,7 @@ pub(crate) fn run(
         view,
         lights,
         senders,
+        occlusion,
     } = inputs;
     let points = if let Senders::Vpls(rsm) = senders {
         point_senders(rsm, plan)
@@ -77,6 +79,7 @@ pub(crate) fn run(
         scene,
         gbuffer,
         eye: view.camera.eye,
+        occlusion: occlusion.map(|maps| &**maps),
         lights: &lights,
         indirect,
         emitters,
@@ -184,6 +187,7 @@ enum Indirect<'a> {
 struct Shader<'a> {
     shares: Shares,
     scene: &'a SceneData,
+    occlusion: Option<&'a Occlusion>,
     gbuffer: &'a GBuffer,
     eye: Vec3,
     lights: &'a [LightRecord],
@@ -196,6 +200,8 @@ struct Shader<'a> {
 /// Where shadow rays of a block start, and which lanes hold a surface.
 pub(crate) struct Origins {
     pub(crate) position: [[f32; LANES]; 3],
+    /// Geometric normals, turned to the eye.
+    pub(crate) facing: [[f32; LANES]; 3],
     pub(crate) hit: [bool; LANES],
 }
 
@@ -224,6 +230,7 @@ impl Shader<'_> {
             std::array::from_fn(|lane| Receiver::of(self.gbuffer, index(lane), self.eye));
         let mut origins = Origins {
             position: [[0.0; LANES]; 3],
+            facing: [[0.0; LANES]; 3],
             hit,
         };
         for lane in 0..LANES {
@@ -233,6 +240,7 @@ impl Shader<'_> {
             let origin = receiver.position + facing * lift(self.scene.lift(), receiver.position);
             for channel in 0..3 {
                 origins.position[channel][lane] = origin[channel];
+                origins.facing[channel][lane] = facing[channel];
             }
             if hit[lane] {
                 let colors = Colors::of(self.gbuffer, index(lane));
@@ -323,7 +331,12 @@ impl Shader<'_> {
             sums
         } else {
             let (receivers, origins) = (&seen.receivers, &seen.origins);
-            sum_vsgls(self.scene, vsgls, lights, receivers, origins, self.plan)
+            let from = Inputs {
+                scene: self.scene,
+                vsgls,
+                occlusion: self.occlusion,
+            };
+            sum_vsgls(&from, lights, receivers, origins, self.plan)
         };
         std::array::from_fn(|lane| {
             if !seen.origins.hit[lane] {
@@ -347,7 +360,12 @@ impl Shader<'_> {
             Indirect::None => Sums::default(),
             Indirect::Vsgls(vsgls) => {
                 let lights = within(vsgls.diffuse.len()).step_by(1);
-                sum_vsgls(self.scene, vsgls, lights, receivers, origins, self.plan)
+                let from = Inputs {
+                    scene: self.scene,
+                    vsgls,
+                    occlusion: self.occlusion,
+                };
+                sum_vsgls(&from, lights, receivers, origins, self.plan)
             }
             Indirect::Vpls(points, rsm) => {
                 let points = &points[within(points.len())];
@@ -432,10 +450,16 @@ fn walk(
     blocked.map(|b| 1.0 - b as f32)
 }
 
+/// What clusters are shaded from.
+struct Inputs<'a> {
+    scene: &'a SceneData,
+    vsgls: &'a Vsgls,
+    occlusion: Option<&'a Occlusion>,
+}
+
 #[multiversion(targets("x86_64+avx2+fma", "aarch64+neon"))]
 fn sum_vsgls(
-    scene: &SceneData,
-    vsgls: &Vsgls,
+    from: &Inputs<'_>,
     lights: StepBy<Range<usize>>,
     receivers: &Receivers,
     origins: &Origins,
@@ -443,6 +467,7 @@ fn sum_vsgls(
 ) -> Sums {
     let mut total = Sums::default();
     let receivers = *receivers;
+    let (scene, vsgls) = (from.scene, from.vsgls);
     for j in lights {
         let specular = if plan.glossy_senders {
             vsgls.specular.get(j)
@@ -453,6 +478,20 @@ fn sum_vsgls(
         let open = match plan.occlusion {
             OcclusionMethod::None | OcclusionMethod::Sampled => [1.0; LANES],
             OcclusionMethod::Rays => open(scene, &vsgls.target[j], origins, &sums, plan.masks),
+            OcclusionMethod::Ism | OcclusionMethod::IsmTessellated => {
+                let maps = from.occlusion.expect("checked before");
+                let texels = maps.side as usize * maps.side as usize;
+                let depth = &maps.depth[j * texels..(j + 1) * texels];
+                let at = Lanes {
+                    position: receivers.position(),
+                    facing: &origins.facing,
+                };
+                let mut asked = [false; LANES];
+                for lane in 0..LANES {
+                    asked[lane] = origins.hit[lane] & sums.lit(lane);
+                }
+                occlusion::open(scene, &vsgls.target[j], depth, maps.side, &at, &asked)
+            }
         };
         total.add_open(&sums, &open);
     }
@@ -499,7 +538,7 @@ fn sum_vpls(
         let sums = block::vpl(point, &receivers, plan);
         let open = match plan.occlusion {
             OcclusionMethod::None | OcclusionMethod::Sampled => [1.0; LANES],
-            OcclusionMethod::Rays => open(
+            _ => open(
                 scene,
                 &vsgl_core::phase::cluster::target(scene, rsm, *texel),
                 origins,

@@ -1,4 +1,4 @@
-//! needs: data/index, data/point_sender, data/receivers, data/sums, data/vsgls_read, phase/direct, phase/interleave, phase/reflect, phase/sampled
+//! needs: data/index, data/point_sender, data/receivers, data/sums, data/vsgls_read, phase/direct, phase/interleave, phase/occlusion, phase/reflect, phase/sampled
 // Light to the eye from every sample: `direct` of the lights themselves, `vsgls` and `vpls` of one bounce. A dispatch for each
 // band of samples and each group of lights; sums wait in `waiting` for the next group, so that their order is that of the lights.
 
@@ -37,7 +37,8 @@ struct Params {
     width: u32,
     height: u32,
     side: u32,
-    padding: u32,
+    // Texels along a side of a shadow map.
+    map_side: u32,
 }
 
 struct Count {
@@ -62,6 +63,10 @@ struct Count {
 @group(0) @binding(11) var<storage, read_write> waiting: array<vec4<f32>>;
 @group(0) @binding(12) var texels: texture_2d_array<u32>;
 @group(0) @binding(13) var<uniform> columns: TexelLayout;
+
+
+// Shadow maps of the clusters, one after the other.
+@group(0) @binding(15) var<storage, read> depth: array<f32>;
 
 fn write(column: u32, i: u32, value: vec3<f32>) {
     let at = 3u * (column * params.count + i);
@@ -235,6 +240,62 @@ fn vsgls(
         }
     }
     leave(i, left, emitting);
+}
+
+// Share of a cluster's light that reaches a receiver, by its map.
+fn open_by_map(map: u32, point: Target, position: vec3<f32>, facing: vec3<f32>) -> f32 {
+    let side = params.map_side;
+    let frame = map_frame_new(point.position, point.normal, params.lift);
+    let probe = occlusion_probe(frame, position, facing, side);
+    if probe.hidden {
+        return 0.0;
+    }
+    let first = (map * side + probe.first.y) * side + probe.first.x;
+    let below = first + probe.next * side;
+    let four = vec4(depth[first], depth[first + probe.next], depth[below], depth[below + probe.next]);
+    return occlusion_open(probe, four);
+}
+
+// As `vsgls`, with shadow maps instead of rays: a kernel of its own, since both together bind too many buffers.
+@compute @workgroup_size(INVOCATIONS)
+fn vsgls_with_maps(
+    @builtin(global_invocation_id) invocation: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+) {
+    let i = params.first + item_index(invocation, groups);
+    if i >= params.end {
+        return;
+    }
+    var total = sums_before(i);
+    var emitting = false;
+    if triangle[i] != NO_TRIANGLE {
+        let seen = receiver_at(i);
+        let facing = surface_geometric_normal(triangle[i], params.eye - seen.position);
+        let surfaces = surfaces_of(seen);
+        let capacity = params.lights;
+        let before = min(params.first_light, clusters.value);
+        if EMITTERS && before > 0u {
+            emitting = all(diffuse_vsgl_at(before - 1u).light == vec3(0.0));
+        }
+        for (var j = params.first_light; j < min(params.end_light, clusters.value); j++) {
+            let light = diffuse_vsgl_at(j);
+            if EMITTERS && !emitting && all(light.light == vec3(0.0)) {
+                write_indirect(i, total);
+                total = Sums();
+                emitting = true;
+            }
+            var sums = reflect_diffuse(light, seen, surfaces);
+            if GLOSSY_SENDERS {
+                sums = reflect_specular(sums, specular_vsgl_at(j, capacity), seen, surfaces);
+            }
+            if sums_lit(sums) {
+                let point = target_at(j, capacity, select(0u, SPECULAR_STRIDE, GLOSSY_SENDERS));
+                let open = open_by_map(j, point, seen.position, facing);
+                total = sums_add(total, sums_scale(sums, open));
+            }
+        }
+    }
+    write_sums(i, total, emitting);
 }
 
 @compute @workgroup_size(INVOCATIONS)

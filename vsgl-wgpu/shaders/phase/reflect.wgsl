@@ -34,6 +34,10 @@ fn sums_add(sum: Sums, more: Sums) -> Sums {
     return Sums(sum.diffuse + more.diffuse, sum.near + more.near, sum.grazing + more.grazing);
 }
 
+fn sums_scale(sums: Sums, share: f32) -> Sums {
+    return Sums(sums.diffuse * share, sums.near * share, sums.grazing * share);
+}
+
 // What a receiver has in common for all lights: `two` where it has two roughnesses, else `one`; neither where nothing glossy
 // is seen.
 struct Surfaces {

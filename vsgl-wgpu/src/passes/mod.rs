@@ -8,6 +8,7 @@ pub(crate) mod gbuffer;
 pub(crate) mod import;
 mod importance;
 mod nearest;
+pub(crate) mod occlusion;
 mod partition;
 pub(crate) mod path;
 pub(crate) mod pdf;
@@ -36,6 +37,7 @@ pub fn kernels(plan: &Plan) -> Vec<KernelId> {
         kernels.extend(rsm::kernels(&bounce.rsm));
         kernels.extend(bounce.pdf.iter().flat_map(pdf::kernels));
         kernels.extend(bounce.cluster.iter().flat_map(cluster::kernels));
+        kernels.extend(bounce.occlusion.iter().flat_map(occlusion::kernels));
         clusters = bounce.cluster.is_some();
     }
     kernels.extend(shade::kernels(&plan.shade, clusters));

@@ -64,7 +64,7 @@ pub(super) struct Params {
     pub(super) width: u32,
     pub(super) height: u32,
     pub(super) side: u32,
-    pub(super) padding: u32,
+    pub(super) map_side: u32,
 }
 
 /// Twin of `Params` in `entry/senders.wgsl`.
@@ -150,10 +150,10 @@ impl Shading {
             context.queue().write_buffer(&direct_lights, 0, bytes);
         }
         let cost = match plan.occlusion {
-            OcclusionMethod::None => 1,
             // Every light is looked at twice.
             OcclusionMethod::Sampled => 2,
             OcclusionMethod::Rays => RAY_COST,
+            _ => 1,
         };
         let software = is_software(context.info());
         let pairs = if software { PAIRS_SOFTWARE } else { PAIRS_GPU };
@@ -209,7 +209,7 @@ impl Shading {
                 width: shares.width,
                 height: shares.height,
                 side: shares.side,
-                padding: 0,
+                map_side: inputs.occlusion.map_or(0, |maps| maps.head[1]),
             },
             direct: context.kernel("entry/shade", "direct", &direct_constants(plan))?,
             direct_lights,
@@ -282,6 +282,9 @@ impl Shading {
             (Senders::Vsgls(vsgls), _) => {
                 bound.push(("lights", vsgls.bind("diffuse")));
                 bound.push(("clusters", Binding::Buffer(vsgls.count_buffer())));
+                if let Some(maps) = inputs.occlusion {
+                    bound.push(("depth", maps.bind("depth")));
+                }
             }
             (Senders::Vpls(rsm), Some((buffer, kernel, sender_params))) => {
                 if band.start == 0 {
@@ -337,7 +340,7 @@ impl Bounce {
         Ok(match senders {
             Senders::None => None,
             Senders::Vsgls(vsgls) => Some(Self {
-                kernel: context.kernel("entry/shade", "vsgls", &constants(plan))?,
+                kernel: context.kernel("entry/shade", clusters_entry(plan), &constants(plan))?,
                 lights: vsgls.len("diffuse") as u32,
                 senders: None,
             }),
@@ -384,6 +387,15 @@ fn direct_constants(plan: &ShadePlan) -> [Constant; 3] {
     ]
 }
 
+/// The kernel that shades by clusters.
+fn clusters_entry(plan: &ShadePlan) -> &'static str {
+    if plan.occlusion.has_maps() {
+        "vsgls_with_maps"
+    } else {
+        "vsgls"
+    }
+}
+
 fn sender_constants(glossy: bool, anisotropic: bool) -> [Constant; 2] {
     [
         ("GLOSSY_SENDERS", flag(glossy)),
@@ -396,7 +408,7 @@ pub(crate) fn kernels(plan: &ShadePlan, clusters: bool) -> Vec<KernelId> {
     let shade = |entry, constants: &[Constant]| KernelId::new("entry/shade", entry, constants);
     let mut kernels = vec![shade("direct", &direct_constants(plan))];
     if plan.bounce && clusters {
-        kernels.push(shade("vsgls", &constants(plan)));
+        kernels.push(shade(clusters_entry(plan), &constants(plan)));
         if plan.occlusion == OcclusionMethod::Sampled {
             kernels.push(sampled::kernel(plan));
         }
@@ -480,7 +492,7 @@ mod tests {
                 width,
                 height,
                 side,
-                padding
+                map_side
             }
         );
         twins!(

@@ -2,6 +2,7 @@
 
 mod clusters;
 mod map;
+mod shadows;
 
 use crate::exit::Result;
 use crate::interrupt;
@@ -10,7 +11,7 @@ use crate::output::{self, Metadata, Pending};
 use map::Map;
 use std::path::{Path, PathBuf};
 use vsgl_core::backend::Backend;
-use vsgl_core::data::{Pdf, Rsm, Vsgls};
+use vsgl_core::data::{Occlusion, Pdf, Rsm, Vsgls};
 
 /// Most maps that are drawn.
 const MAPS_MAX: u32 = 16;
@@ -20,6 +21,7 @@ pub(super) struct Senders<B: Backend> {
     pub(super) rsm: Option<B::Res<Rsm>>,
     pub(super) pdf: Option<B::Res<Pdf>>,
     pub(super) vsgls: Option<B::Res<Vsgls>>,
+    pub(super) occlusion: Option<B::Res<Occlusion>>,
 }
 
 /// A folder for the pictures.
@@ -88,6 +90,12 @@ impl Dump {
             let file = Pending::create(&path)?;
             file.write(|file| output::exr::write(file, picture, metadata))?;
             written.push((path, "EXR"));
+        }
+        if let Some(maps) = &senders.occlusion {
+            interrupt::check()?;
+            let path = self.folder.join("shadow-maps.png");
+            write_png(&path, &shadows::draw(&backend.download(maps)?), metadata)?;
+            written.push((path, "PNG"));
         }
         Ok(written)
     }

@@ -126,6 +126,7 @@ fn draw<B: Host>(
         rsm,
         pdf,
         vsgls,
+        occlusion,
         gbuffer,
         radiance,
         image,
@@ -139,7 +140,13 @@ fn draw<B: Host>(
         list.push((phase.to_string(), time.as_secs_f64()));
     }
     let seconds = Seconds { list, wall, clock };
-    Ok((image, dump::Senders { rsm, pdf, vsgls }, seconds))
+    let senders = dump::Senders {
+        rsm,
+        pdf,
+        vsgls,
+        occlusion,
+    };
+    Ok((image, senders, seconds))
 }
 
 fn warn(out: &OutputArgs, warnings: &[String]) {
