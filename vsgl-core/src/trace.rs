@@ -94,6 +94,7 @@ pub(crate) fn frame<B: Backend>(
             rsm: None,
             pdf: None,
             vsgls: None,
+            occlusion: None,
             gbuffer,
             radiance,
             image,

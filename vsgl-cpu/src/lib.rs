@@ -32,7 +32,9 @@ mod phase;
 use std::ops::Range;
 use std::sync::Arc;
 use vsgl_core::backend::{Backend, PdfInputs, ShadeInputs};
-use vsgl_core::data::{Columns, GBuffer, Image, LightRecord, Occlusion, Pdf, Radiance, Rsm, SceneData, Vsgls};
+use vsgl_core::data::{
+    Columns, GBuffer, Image, LightRecord, Occlusion, Pdf, Radiance, Rsm, SceneData, Vsgls,
+};
 use vsgl_core::plan::{
     ClusterPlan, GBufferPlan, OcclusionPlan, PathPlan, PdfPlan, ReconstructPlan, RsmPlan, ShadePlan,
 };

@@ -177,7 +177,9 @@ const fn words<T>() -> u32 {
 fn header() -> String {
     use vsgl_core::data::{self, map_kind};
     use vsgl_core::phase::{
-        bsdf, cluster, direct, facing, fill, filtered_box, footprint, importance, interleave, nearest, normal_map, occlusion, partition, path, pdf, reconstruct, rsm, sampled, shade, splat, surface, texture, whole,
+        bsdf, cluster, direct, facing, fill, filtered_box, footprint, importance, interleave,
+        nearest, normal_map, occlusion, partition, path, pdf, reconstruct, rsm, sampled, shade,
+        splat, surface, texture, whole,
     };
     let floats: &[(&str, f32)] = &[
         ("ALPHA_MIN", surface::ALPHA_MIN),
