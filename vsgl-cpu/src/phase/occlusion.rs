@@ -154,9 +154,9 @@ pub(crate) fn open(
     let frame = MapFrame::new(target, scene.lift());
     let get = |v: &Vec3Lanes, lane: usize| Vec3::new(v[0][lane], v[1][lane], v[2][lane]);
     let mut probes = [Probe::default(); LANES];
-    for lane in 0..LANES {
+    for (lane, probe) in probes.iter_mut().enumerate() {
         let (position, facing) = (get(at.position, lane), get(at.facing, lane));
-        probes[lane] = occlusion::probe(&frame, position, facing, side);
+        *probe = occlusion::probe(&frame, position, facing, side);
     }
     let mut open = [0.0; LANES];
     for lane in 0..LANES {

@@ -46,6 +46,13 @@ pub(crate) fn run(
         senders,
         occlusion,
     } = inputs;
+    if plan.occlusion.has_maps() && matches!(senders, Senders::Vsgls(_)) && occlusion.is_none() {
+        return Err(Error::setting(
+            "occlusion",
+            format!("`{}` without its shadow maps", plan.occlusion),
+            "give what `Backend::occlusion` made",
+        ));
+    }
     let points = if let Senders::Vpls(rsm) = senders {
         point_senders(rsm, plan)
     } else {
@@ -479,17 +486,14 @@ fn sum_vsgls(
             OcclusionMethod::None | OcclusionMethod::Sampled => [1.0; LANES],
             OcclusionMethod::Rays => open(scene, &vsgls.target[j], origins, &sums, plan.masks),
             OcclusionMethod::Ism | OcclusionMethod::IsmTessellated => {
-                let maps = from.occlusion.expect("checked before");
+                let maps = from.occlusion.expect("`run` asks for them");
                 let texels = maps.side as usize * maps.side as usize;
                 let depth = &maps.depth[j * texels..(j + 1) * texels];
                 let at = Lanes {
                     position: receivers.position(),
                     facing: &origins.facing,
                 };
-                let mut asked = [false; LANES];
-                for lane in 0..LANES {
-                    asked[lane] = origins.hit[lane] & sums.lit(lane);
-                }
+                let asked = std::array::from_fn(|lane| origins.hit[lane] & sums.lit(lane));
                 occlusion::open(scene, &vsgls.target[j], depth, maps.side, &at, &asked)
             }
         };
