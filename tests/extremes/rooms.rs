@@ -78,6 +78,8 @@ pub(crate) fn common() -> Vec<(String, Settings)> {
     }
     for words in [
         "method=vpl",
+        "occlusion=ism map_points=512",
+        "occlusion=ism-tessellated map_size=16",
         "method=path spp=2 max_depth=5",
         "clustering=filtered",
         "clustering=whole",

@@ -526,3 +526,37 @@ fn paths_need_no_lights_made_of_texels() {
     );
     assert!(shot("").plan().path.is_none());
 }
+
+#[test]
+fn shadow_maps_only_where_they_are_asked_for() {
+    let plan = shot("").plan();
+    let rays = Some((false, "rays say what blocks indirect light"));
+    assert_eq!(reason(&plan, "shadow maps"), rays);
+    assert!(plan.bounce.expect("light").occlusion.is_none());
+    for (words, tessellated) in [
+        ("occlusion=ism", false),
+        ("occlusion=ism-tessellated", true),
+    ] {
+        let few = shot(words).with("lights=16 map_size=32 map_points=100");
+        let maps = few.plan().bounce.expect("light").occlusion.expect(words);
+        assert_eq!(
+            (maps.side, maps.points, maps.tessellated, maps.masks),
+            (32, 100, tessellated, false)
+        );
+        assert_eq!(
+            reason(&few.plan(), "smaller shadow maps").map(|r| r.0),
+            Some(false)
+        );
+        // As many maps as there may be lights, of as many texels as there may be in all.
+        let many = few.with("lights=65536 map_size=256 map_points=8192");
+        let maps = many.plan().bounce.expect("light").occlusion.expect(words);
+        assert_eq!((maps.side, maps.points), (16, 1024));
+        assert_eq!(
+            reason(&many.plan(), "smaller shadow maps").map(|r| r.0),
+            Some(true)
+        );
+        let mut dark = shot(words);
+        dark.lights.clear();
+        assert!(dark.plan().bounce.is_none());
+    }
+}

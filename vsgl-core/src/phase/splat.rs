@@ -5,6 +5,7 @@
 
 use super::occlusion::{MapFrame, OPEN, direction, place};
 use super::pdf::unit;
+use crate::math::sobol::hash;
 use glam::Vec3;
 
 /// Texels that a point covers beyond its own in each direction, at most.
@@ -23,17 +24,6 @@ pub const PIECES_MAX: u32 = 192;
 pub const THIRD: f32 = 1.0 / 3.0;
 /// Places of the middle of a piece.
 pub const TWO_THIRDS: f32 = 2.0 / 3.0;
-
-/// Well mixed bits.
-///
-/// Source: O'Neill 2014, "PCG: A Family of Simple Fast Space-Efficient Statistically Good Algorithms for Random Number
-/// Generation" (RXS-M-XS, 32 bits).
-#[inline(always)]
-pub fn hash(value: u32) -> u32 {
-    let state = value.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
-    let word = ((state >> ((state >> 28) + 4)) ^ state).wrapping_mul(277_803_737);
-    (word >> 22) ^ word
-}
 
 /// An integer as the nearest number, by exact steps: devices need not round what they convert.
 #[inline(always)]

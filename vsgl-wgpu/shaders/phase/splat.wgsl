@@ -1,14 +1,7 @@
-//! needs: math/vec, phase/occlusion, phase/unit
+//! needs: math/sobol, math/vec, phase/occlusion, phase/unit
 // Surfaces as points of a shadow map. Twin of `vsgl-core/src/phase/splat.rs`.
 //
 // Reads `share` and `corner`, which the entry binds.
-
-// Well mixed bits.
-fn splat_hash(value: u32) -> u32 {
-    let state = value * 747796405u + 2891336453u;
-    let word = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
-    return (word >> 22u) ^ word;
-}
 
 // An integer as the nearest number, by exact steps.
 fn splat_number(value: u32) -> f32 {
@@ -17,7 +10,7 @@ fn splat_number(value: u32) -> f32 {
 
 // Where draw `index` of a map falls among the shares.
 fn splat_draw(map: u32, index: u32, stride: u32) -> u32 {
-    return index * stride + splat_hash(2u * map) % stride;
+    return index * stride + sobol_hash(2u * map) % stride;
 }
 
 // First of `count` shares beyond a draw.
@@ -46,7 +39,7 @@ struct Point {
 fn splat_random_point(map: u32, index: u32, draw: u32, low: u32, high: u32, stride: u32) -> Point {
     let width = splat_number(high - low);
     let along = min(splat_number(draw - low) / width, 1.0);
-    let across = pdf_unit(reverseBits(index) + splat_hash(2u * map + 1u));
+    let across = pdf_unit(reverseBits(index) + sobol_hash(2u * map + 1u));
     let root = sqrt(along);
     let area = splat_number(stride) / width;
     return Point(root - root * across, root * across, area, area <= 1.0);
@@ -91,7 +84,7 @@ fn splat_slot(
     corners: Corners,
     side: u32,
 ) -> Slot {
-    let start = splat_hash(2u * map) % stride;
+    let start = sobol_hash(2u * map) % stride;
     let before = splat_draws_below(low, start, stride);
     let slots = max(splat_draws_below(high, start, stride) - before, 1u);
     let texels = splat_solid_angle(corners) * f32(side * side) * (0.5 * FRAC_1_PI);
