@@ -85,11 +85,15 @@ fn row(root: &Path, view: &str, method: &str, settings: &str) {
     let [leak, acne] = maps.as_ref().map_or([f64::NAN; 2], |maps| {
         pairs::differences(&scene, &gbuffer, &vsgls, maps, shot.view.camera.eye, &plan)
     });
+    let share = |x: f64| match x.is_finite() {
+        true => format!("{:.2}", 100.0 * x),
+        false => "–".to_owned(),
+    };
     println!(
-        "| {view} | {method} | {mape:.2} | {energy:+.2} | {:.2} | {:.2} | {:.2} | {:.2} |",
+        "| {view} | {method} | {mape:.2} | {energy:+.2} | {:.2} | {:.2} | {} | {} |",
         made - start,
         shaded - made,
-        100.0 * leak,
-        100.0 * acne
+        share(leak),
+        share(acne)
     );
 }
