@@ -19,6 +19,7 @@ use glam::Vec3;
 pub const STEP_X: u32 = 0xC13F_A9A9;
 /// As [`STEP_X`], along the other side.
 pub const STEP_Y: u32 = 0x91E1_0DA5;
+
 /// Luminance of what a light brings to the eye if nothing is in its way, from its sums at the receiver \[W/(m² sr)\].
 #[inline(always)]
 pub fn contribution(colors: &Colors, diffuse: Vec3, near: Vec3, grazing: Vec3) -> f32 {
