@@ -208,6 +208,7 @@ fn header() -> String {
         ("TANGENT_MIN", normal_map::TANGENT_MIN),
         ("AXIS_MAX", texture::AXIS_MAX),
         ("HALF_LOG2_E", texture::HALF_LOG2_E),
+        ("FAINT", reconstruct::FAINT),
         ("SLOPE_MAX", reconstruct::SLOPE_MAX),
         ("TURN_MAX", reconstruct::TURN_MAX),
         ("ROUGHNESS_FALL", reconstruct::ROUGHNESS_FALL),

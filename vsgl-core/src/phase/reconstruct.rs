@@ -22,6 +22,16 @@ pub const ROUGHNESS_FALL: f32 = 16.0;
 /// Samples along a side of the square over which visibility is taken together, at least.
 pub const FILTER: u32 = 4;
 
+/// Sums below are no light \[W/m²\]: where a device takes numbers below the normal ones for zero, such sums are what is left of
+/// products that it lost.
+pub const FAINT: f32 = 1e-30;
+
+/// Sums that shading leaves, without what is too faint.
+#[inline(always)]
+pub fn lit(sums: [f32; 3]) -> [f32; 3] {
+    sums.map(|sum| if sum < FAINT { 0.0 } else { sum })
+}
+
 /// What decides whether two samples are alike.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Patch {

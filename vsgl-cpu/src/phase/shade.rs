@@ -21,6 +21,7 @@ use vsgl_core::phase::direct;
 use vsgl_core::phase::facing::{geometric_normal, lift};
 use vsgl_core::phase::interleave::Shares;
 use vsgl_core::phase::mask::Masked;
+use vsgl_core::phase::reconstruct::lit;
 use vsgl_core::phase::sampled::offset;
 use vsgl_core::phase::shade::{Colors, PointSender, Receiver};
 use vsgl_core::plan::ShadePlan;
@@ -350,11 +351,11 @@ impl Shader<'_> {
                 return SampleSums::default();
             }
             SampleSums {
-                diffuse: sums.diffuse.map(|c| c[lane]),
+                diffuse: lit(sums.diffuse.map(|c| c[lane])),
                 total: total[lane],
-                near: sums.near.map(|c| c[lane]),
+                near: lit(sums.near.map(|c| c[lane])),
                 open: opened[lane],
-                grazing: sums.grazing.map(|c| c[lane]),
+                grazing: lit(sums.grazing.map(|c| c[lane])),
                 asked: asked[lane],
             }
         })

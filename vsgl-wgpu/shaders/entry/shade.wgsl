@@ -160,7 +160,12 @@ fn leave(i: u32, left: Left, emitting: bool) {
         write_sums(i, left.sums, emitting);
         return;
     }
-    leave_at(i, left, emitting);
+    // After the last of the lights.
+    if params.end_light >= params.lights {
+        leave_at(i, left_lit(left), emitting);
+    } else {
+        leave_at(i, left, emitting);
+    }
     if EMITTERS && !emitting && params.first_light == 0u {
         leave_at(i, Left(), true);
     }
@@ -213,7 +218,7 @@ fn vsgls(
             let light = diffuse_vsgl_at(j);
             if EMITTERS && !emitting && all(light.light == vec3(0.0)) {
                 if LEAVES_SUMS {
-                    leave_at(i, left, false);
+                    leave_at(i, left_lit(left), false);
                 } else {
                     write_indirect(i, left.sums);
                 }
