@@ -21,7 +21,7 @@ pub struct SettingsArgs {
     /// Set any setting by its key (repeatable); `vsgl info` lists the keys
     #[arg(long, value_name = "KEY=VALUE", value_parser = key_value)]
     pub set: Vec<(String, String)>,
-    /// How indirect light is found; vpl takes every texel for a light, which is the slow reference
+    /// How indirect light is found; vpl takes every texel for a light, path draws paths of light: slow, to compare with
     #[arg(long, value_parser = PossibleValuesParser::new(Method::WORDS))]
     pub method: Option<String>,
     /// Number of virtual lights [default: 1024]
@@ -42,7 +42,8 @@ pub struct SettingsArgs {
     /// How texels become virtual lights
     #[arg(long, value_parser = PossibleValuesParser::new(Clustering::WORDS))]
     pub clustering: Option<String>,
-    /// Whether and how indirect light is blocked
+    /// Whether and how indirect light is blocked: not, by a ray to each light, by a few rays (--set rays=8), or by shadow maps
+    /// of points or of pieces of triangles [default: rays]
     #[arg(long, value_parser = PossibleValuesParser::new(OcclusionMethod::WORDS))]
     pub occlusion: Option<String>,
     /// Side of the square of pixels that share out the virtual lights: 1, 2, 4 or 8 [default: 1]
