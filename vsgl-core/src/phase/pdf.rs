@@ -1,6 +1,7 @@
 //! The density on the texels, and drawing from it.
 
 use crate::data::Pdf;
+use crate::math::sobol;
 
 /// Shares `count` lights out between maps by their weight; they add up to `count` unless no map has weight.
 ///
@@ -113,7 +114,7 @@ pub fn fibonacci(index: u32, count: u32) -> (f32, f32) {
 
 /// 0 ≤ x < 1 from the upper 24 bits.
 pub fn unit(bits: u32) -> f32 {
-    (bits >> 8) as f32 * (1.0 / 16_777_216.0)
+    sobol::fraction(bits)
 }
 
 /// Largest f32 below one.

@@ -8,7 +8,7 @@
 //! Source: systematic sampling, Madow 1949, "On the Theory of Systematic Sampling, II".
 
 use super::interleave::Shares;
-use super::pdf::GOLDEN_TURN;
+use super::pdf::{GOLDEN_TURN, unit};
 use super::shade::Colors;
 use crate::math::vec::luminance;
 use glam::Vec3;
@@ -33,7 +33,7 @@ pub fn offset(shares: &Shares, x: u32, y: u32) -> f32 {
     let down = (y / shares.side).wrapping_mul(STEP_Y);
     let share = shares.share(x, y).wrapping_mul(GOLDEN_TURN);
     let bits = across.wrapping_add(down).wrapping_add(share);
-    (bits >> 8) as f32 * (1.0 / 16_777_216.0)
+    unit(bits)
 }
 
 /// The running sum at which ray `k` finds its light; `step` is [`step`].
