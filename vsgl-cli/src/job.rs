@@ -92,11 +92,8 @@ impl Job {
         }
         .checked()?;
         let facts = SceneFacts::new(&read, &lights, &camera);
-        let mut plan = Plan::new(&facts, &settings)?;
         let seed = view.seed.unwrap_or(0);
-        if let Some(path) = &mut plan.path {
-            path.seed = sobol::combine(seed as u32, (seed >> 32) as u32);
-        }
+        let plan = plan(&facts, &settings, seed)?;
         if facts.triangles > 0 && lights.is_empty() && facts.emitters == 0 {
             let shown = if facts.seen.unlit {
                 "nothing but what shines by itself will be seen"
@@ -126,6 +123,28 @@ impl Job {
 }
 
 impl Job {
+    /// What would run with other settings.
+    ///
+    /// # Errors
+    /// As [`Plan::new`].
+    pub fn plan_for(&self, settings: &Settings, seed: u64) -> Result<Plan> {
+        plan(&self.facts, settings, seed)
+    }
+
+    /// That there is something to draw.
+    ///
+    /// # Errors
+    /// [`Failure::Input`] for a scene without triangles.
+    pub fn check_drawable(&self) -> Result<()> {
+        if self.facts.triangles > 0 {
+            return Ok(());
+        }
+        Err(Failure::Input(format!(
+            "{}: nothing to draw: the scene has no triangles; give one that has",
+            self.name
+        )))
+    }
+
     /// Name of a light in the scene's file; empty for those without, and for added ones.
     pub fn light_name(&self, index: usize) -> &str {
         let names = match self.own_lights {
@@ -156,6 +175,14 @@ impl Job {
         data.check_overlap(&self.name, self.overlap)?;
         Ok(data)
     }
+}
+
+fn plan(facts: &SceneFacts, settings: &Settings, seed: u64) -> Result<Plan> {
+    let mut plan = Plan::new(facts, settings)?;
+    if let Some(path) = &mut plan.path {
+        path.seed = sobol::combine(seed as u32, (seed >> 32) as u32);
+    }
+    Ok(plan)
 }
 
 /// What is taken where nothing is given.

@@ -11,6 +11,7 @@
 //! | [`exit`] | failures and their exit codes |
 
 pub mod args;
+mod clock;
 pub mod commands;
 pub mod device;
 pub mod exit;

@@ -102,3 +102,55 @@ impl Observer for Progress {
         interrupt::asked()
     }
 }
+
+/// Shows how many of several steps are done.
+#[derive(Debug)]
+pub struct Steps {
+    bar: Option<ProgressBar>,
+    lines: bool,
+}
+
+impl Steps {
+    /// Shows progress on standard error, as asked.
+    pub fn new(when: When, steps: usize) -> Self {
+        let terminal = std::io::stderr().is_terminal();
+        let bar = (when != When::Never && terminal).then(|| {
+            let bar =
+                ProgressBar::with_draw_target(Some(steps as u64), ProgressDrawTarget::stderr());
+            let style = "{wide_msg}  {pos} of {len}, {eta} left";
+            if let Ok(style) = ProgressStyle::with_template(style) {
+                bar.set_style(style);
+            }
+            bar
+        });
+        Self {
+            bar,
+            lines: when == When::Always && !terminal,
+        }
+    }
+
+    /// A step begins.
+    pub fn begun(&self, what: &str) {
+        if let Some(bar) = &self.bar {
+            bar.set_message(what.to_owned());
+        }
+    }
+
+    /// A step is done, or need not be.
+    pub fn passed(&self, what: &str) {
+        if let Some(bar) = &self.bar {
+            bar.println(what);
+            bar.inc(1);
+        }
+        if self.lines {
+            text::warn(what);
+        }
+    }
+
+    /// An end to all that is shown.
+    pub fn finish(self) {
+        if let Some(bar) = &self.bar {
+            bar.finish_and_clear();
+        }
+    }
+}

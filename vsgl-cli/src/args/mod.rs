@@ -6,6 +6,7 @@ mod parity;
 mod render;
 mod scene;
 mod settings;
+mod sweep;
 mod words;
 
 pub use compare::{CompareArgs, Limit};
@@ -14,6 +15,7 @@ pub use parity::ParityArgs;
 pub use render::{BackendName, InfoArgs, OutputArgs, RenderArgs, When};
 pub use scene::{SceneArgs, ViewArgs};
 pub use settings::SettingsArgs;
+pub use sweep::{SweepArgs, SweepOutputArgs};
 pub use words::{LookAt, Point, Size, Spot, Sun};
 
 use clap::{Args, Parser, Subcommand};
@@ -50,6 +52,8 @@ pub enum Command {
     Compare(CompareArgs),
     /// Compare the CPU with an adapter, phase by phase and number by number
     Parity(Box<ParityArgs>),
+    /// Measure error against time over a grid of settings, and report which are worth it
+    Sweep(Box<SweepArgs>),
     /// Judge the mathematics against exact values, and draw it
     Lobe(LobeArgs),
     /// Print a completion script for a shell

@@ -222,6 +222,17 @@ pub(super) fn seconds(word: &str) -> Result<f64, String> {
         .ok_or_else(|| "give a number of seconds".into())
 }
 
+/// Reads a length of time in seconds, above 0.
+///
+/// # Errors
+/// What would be accepted.
+pub(super) fn duration(word: &str) -> Result<f64, String> {
+    let seconds = word.parse().ok();
+    seconds
+        .filter(|s: &f64| *s > 0.0 && *s <= 1e6)
+        .ok_or_else(|| "give a number of seconds above 0, at most a million".into())
+}
+
 fn point(word: &str) -> Result<[f64; 3], String> {
     let problem = || format!("`{word}` is no point; give three numbers x,y,z in metres");
     let coordinates = numbers(word).ok_or_else(problem)?;

@@ -9,6 +9,7 @@ pub mod lobe;
 mod pages;
 mod parity;
 mod render;
+mod sweep;
 
 pub(crate) use facts::count;
 
@@ -28,6 +29,7 @@ pub fn run(cli: Cli) -> Result<()> {
         Command::Info(args) => info::run(&args),
         Command::Compare(args) => compare::run(&args),
         Command::Parity(args) => parity::run(&args),
+        Command::Sweep(args) => sweep::run(&args),
         Command::Lobe(args) => lobe::run(&args),
         Command::Completions(args) => pages::completions(&args),
         Command::Man(args) => pages::man(&args),

@@ -42,6 +42,11 @@ impl Job {
     /// The words after `vsgl` that do this job again with another command in front: resolved, so that they need
     /// neither preset nor settings file.
     pub fn words(&self) -> Vec<String> {
+        self.words_for(&self.settings)
+    }
+
+    /// As [`Job::words`], with other settings.
+    pub fn words_for(&self, settings: &Settings) -> Vec<String> {
         let mut words = self.scene_words.clone();
         let view = &self.view;
         words.extend(["--size".into(), format!("{}x{}", view.width, view.height)]);
@@ -54,7 +59,7 @@ impl Job {
             words.extend(["--seed".into(), self.seed.to_string()]);
         }
         let usual = Settings::default().entries();
-        for ((key, value), (_, usual)) in self.settings.entries().into_iter().zip(usual) {
+        for ((key, value), (_, usual)) in settings.entries().into_iter().zip(usual) {
             if value == usual {
                 continue;
             }

@@ -5,7 +5,7 @@ mod report;
 use super::dump;
 use crate::args::{OutputArgs, RenderArgs, When};
 use crate::device::{self, Chosen, Host};
-use crate::exit::{Failure, Result};
+use crate::exit::Result;
 use crate::job::Job;
 use crate::output::{self, Format, Metadata, Pending};
 use crate::picture::Picture;
@@ -27,12 +27,7 @@ pub(super) fn run(args: &RenderArgs) -> Result<()> {
         Format::of(path)?;
     }
     let mut job = Job::new(&args.scene, &args.view, &args.settings)?;
-    if job.facts.triangles == 0 {
-        return Err(Failure::Input(format!(
-            "{}: nothing to draw: the scene has no triangles; give one that has",
-            job.name
-        )));
-    }
+    job.check_drawable()?;
     warn(out, &job.warnings);
     // Before there are temporary files to remove.
     interrupt::listen()?;

@@ -1,0 +1,323 @@
+//! `vsgl sweep`: error against time over a grid of settings, and which of them are worth it.
+
+mod advice;
+mod errors;
+mod front;
+mod grid;
+mod measure;
+mod record;
+mod reference;
+mod report;
+
+use crate::args::{BackendName, Size, SweepArgs};
+use crate::device::{self, Chosen, Host};
+use crate::exit::{Failure, Result};
+use crate::job::{Defaults, Job};
+use crate::output::exposure::automatic;
+use crate::output::tonemap::Tonemap;
+use crate::output::{self, Metadata, Pending};
+use crate::picture::Picture;
+use crate::progress::{Progress, Steps};
+use crate::{interrupt, text};
+use errors::Layers;
+use grid::{Combination, Grid};
+use measure::{Effort, Measured, measure};
+use record::Records;
+use reference::{Reference, Wanted};
+use serde_json::{Value, json};
+use std::path::Path;
+use std::time::Duration;
+use vsgl_core::data::SceneData;
+
+/// Size of the picture with `--quick`.
+const QUICK: Size = Size {
+    width: 320,
+    height: 180,
+};
+/// Folder of the pictures in the folder of the sweep.
+const PICTURES: &str = "pictures";
+
+/// How thorough a sweep is.
+#[derive(Clone, Copy, Debug)]
+struct Depth {
+    /// Paths through each pixel of the reference.
+    spp: u32,
+    runs: u32,
+    /// No further run of a combination begins after so many seconds.
+    patience: u64,
+    /// Longest frame in seconds.
+    longest: f64,
+}
+
+const THOROUGH: Depth = Depth {
+    spp: 512,
+    runs: 5,
+    patience: 20,
+    longest: 30.0,
+};
+const HASTY: Depth = Depth {
+    spp: 256,
+    runs: 2,
+    patience: 1,
+    longest: 3.0,
+};
+
+/// Sweeps and reports.
+///
+/// # Errors
+/// What reading, rendering and writing return; [`Failure::Output`] if the folder holds another sweep.
+pub(super) fn run(args: &SweepArgs) -> Result<()> {
+    let mut sweep = Sweep::new(args)?;
+    let backends = backends(&args.sweep.backend, args.sweep.threads)?;
+    let data = sweep.job.prepare()?;
+    let last = backends.len() - 1;
+    let mut data = Some(data);
+    for (index, backend) in backends.iter().enumerate() {
+        let data = if index == last {
+            data.take()
+        } else {
+            data.clone()
+        };
+        let Some(data) = data else { continue };
+        match backend {
+            Chosen::Cpu(backend, _) => sweep.on(backend, data)?,
+            Chosen::Wgpu(backend) => sweep.on(&**backend, data)?,
+        }
+    }
+    sweep.finish()
+}
+
+/// The backends of these names; without any, the processor and a real GPU if there is one.
+fn backends(names: &[BackendName], threads: usize) -> Result<Vec<Chosen>> {
+    if !names.is_empty() {
+        let open = |&name: &BackendName| device::choose(name, threads);
+        return names.iter().map(open).collect();
+    }
+    let cpu = device::choose(BackendName::Cpu, threads)?;
+    Ok(match device::choose(BackendName::Auto, threads)? {
+        gpu @ Chosen::Wgpu(_) => vec![gpu, cpu],
+        Chosen::Cpu(..) => vec![cpu],
+    })
+}
+
+/// A sweep on its way.
+struct Sweep<'a> {
+    args: &'a SweepArgs,
+    job: Job,
+    grid: Grid,
+    depth: Depth,
+    records: Records,
+    reference: Option<Reference>,
+    /// Devices that computed.
+    devices: Vec<String>,
+    /// Name and reason of what was not measured.
+    left_out: Vec<(String, String)>,
+}
+
+impl<'a> Sweep<'a> {
+    fn new(args: &'a SweepArgs) -> Result<Self> {
+        let out = &args.sweep;
+        let mut defaults = Defaults::default();
+        if out.quick {
+            defaults.size = QUICK;
+        }
+        let job = Job::with(&args.scene, &args.view, &args.settings, &defaults)?;
+        job.check_drawable()?;
+        for warning in &job.warnings {
+            text::warn(&format!("warning: {warning}"));
+        }
+        let grid = Grid::new(&job, &args.settings, &out.grid, out.quick)?;
+        let mut depth = if out.quick { HASTY } else { THOROUGH };
+        depth.runs = out.runs.unwrap_or(depth.runs);
+        depth.longest = out.longest.unwrap_or(depth.longest);
+        interrupt::listen()?;
+        let records = Records::open(&out.output, header(args, &job, depth))?;
+        Ok(Self {
+            args,
+            left_out: grid.left_out.clone(),
+            job,
+            grid,
+            depth,
+            records,
+            reference: None,
+            devices: Vec::new(),
+        })
+    }
+
+    /// All combinations on one backend; the first renders the reference too.
+    fn on<B: Host>(&mut self, backend: &B, data: SceneData) -> Result<()> {
+        let scene = backend.upload(data)?;
+        let name = backend.name();
+        let reference = match self.reference.take() {
+            Some(reference) => reference,
+            None => self.reference_by(backend, &scene)?,
+        };
+        let device = format!("{name}, {}", backend.device());
+        self.devices.push(device.clone());
+        let steps = Steps::new(self.args.sweep.progress, self.grid.combinations.len());
+        let mut done: Vec<(usize, f64)> = Vec::new();
+        for index in 0..self.grid.combinations.len() {
+            let combination = &self.grid.combinations[index];
+            let id = format!("{name}_{}", combination.id());
+            let label = format!("{name}: {}", combination.name());
+            if let Some(point) = self.records.find(&id) {
+                done.push((index, seconds(point)));
+                steps.passed(&format!("{label}: there already"));
+                continue;
+            }
+            if let Some(expected) = self
+                .expected(index, &done)
+                .filter(|s| *s > self.depth.longest)
+            {
+                let why = format!("a frame would take about {expected:.0} s; see --longest");
+                steps.passed(&format!("{label}: left out, {why}"));
+                self.left_out.push((label, why));
+                continue;
+            }
+            interrupt::check()?;
+            steps.begun(&label);
+            let effort = Effort {
+                runs: self.depth.runs,
+                patience: Duration::from_secs(self.depth.patience),
+            };
+            let measured = match measure(backend, &scene, &self.job, &combination.plan, effort) {
+                Ok(measured) => measured,
+                Err(Failure::Usage(why)) => {
+                    steps.passed(&format!("{label}: left out, {why}"));
+                    self.left_out.push((label, why));
+                    continue;
+                }
+                Err(failure) => return Err(failure),
+            };
+            let point = self.point(&id, [name, &device], combination, &measured, &reference)?;
+            done.push((index, seconds(&point)));
+            steps.passed(&format!("{label}: {}", report::brief(&point)));
+            self.records.push(point)?;
+        }
+        steps.finish();
+        self.reference = Some(reference);
+        Ok(())
+    }
+
+    fn reference_by<B: Host>(&self, backend: &B, scene: &B::Res<SceneData>) -> Result<Reference> {
+        let wanted = Wanted {
+            job: &self.job,
+            spp: self.depth.spp,
+            folder: &self.args.sweep.output,
+        };
+        let progress = Progress::new(self.args.sweep.progress);
+        let reference = wanted.get(backend, scene, &progress);
+        progress.finish();
+        let reference = reference?;
+        let path = self.args.sweep.output.join("reference.png");
+        self.picture(&path, &reference.pixels, &reference, "")?;
+        Ok(reference)
+    }
+
+    /// Seconds of a frame that a combination is expected to take at most, if one with fewer lights was measured.
+    fn expected(&self, index: usize, done: &[(usize, f64)]) -> Option<f64> {
+        let all = &self.grid.combinations;
+        let combination = &all[index];
+        let lights = |c: &Combination| f64::from(c.settings.lights);
+        let like = done.iter().filter(|(other, _)| {
+            combination.differs_in_lights_alone(&all[*other])
+                && lights(&all[*other]) < lights(combination)
+        });
+        let scaled = like.map(|(other, s)| s * lights(combination) / lights(&all[*other]));
+        scaled.min_by(f64::total_cmp)
+    }
+
+    /// What is recorded of a combination. Its picture is written.
+    fn point(
+        &self,
+        id: &str,
+        [backend, device]: [&str; 2],
+        combination: &Combination,
+        measured: &Measured,
+        reference: &Reference,
+    ) -> Result<Value> {
+        let picture = Picture::from_image(&measured.image);
+        let errors = Layers::of(&picture)?.errors(&reference.layers)?;
+        let mut words = ["vsgl", "render"].map(String::from).to_vec();
+        words.extend(self.job.words_for(&combination.settings));
+        words.extend(["--backend".into(), backend.into()]);
+        let command = text::shell(&words);
+        let file = format!("{PICTURES}/{id}.png");
+        let pixels = picture.rgb("").unwrap_or_default();
+        let path = self.args.sweep.output.join(&file);
+        self.picture(&path, &pixels, reference, &command)?;
+        let settings = combination.differing.iter();
+        Ok(json!({
+            "id": id,
+            "backend": backend,
+            "device": device,
+            "name": combination.name(),
+            "settings": settings.map(|(key, value)| ((*key).to_owned(), value.as_str().into())).collect::<serde_json::Map<_, Value>>(),
+            "command": command,
+            "virtual_lights": measured.lights,
+            "runs": measured.runs(),
+            "wall": measured.wall(),
+            "cpu": measured.cpu(),
+            "phases": measured.phases(),
+            "errors": errors,
+            "picture": file,
+        }))
+    }
+
+    /// Writes a PNG, exposed like the reference.
+    fn picture(
+        &self,
+        path: &Path,
+        pixels: &[[f32; 3]],
+        reference: &Reference,
+        command: &str,
+    ) -> Result<()> {
+        let scale = automatic(&reference.pixels).exp2();
+        let code = |p: &[f32; 3]| {
+            Tonemap::Neutral
+                .apply(p.map(|c| c * scale))
+                .map(output::srgb::code)
+        };
+        let codes: Vec<[u8; 3]> = pixels.iter().map(code).collect();
+        let metadata = Metadata {
+            software: output::software(),
+            command: command.into(),
+            ..Metadata::default()
+        };
+        let (width, height) = self.job.view.pixels();
+        let file = Pending::create(path)?;
+        file.write(|file| output::png::write(file, width, height, &codes, &metadata))
+    }
+
+    /// Marks the front, advises, and writes what people read.
+    fn finish(mut self) -> Result<()> {
+        let advice = advice::give(&mut self.records.points);
+        self.records.write()?;
+        self.records.write_table()?;
+        let document = self.document(&advice);
+        if self.args.sweep.json {
+            return text::print_json(&document);
+        }
+        text::print(&report::text(&document))
+    }
+}
+
+/// Seconds of a recorded frame.
+fn seconds(point: &Value) -> f64 {
+    point["wall"]["median"].as_f64().unwrap_or(f64::INFINITY)
+}
+
+/// What begins the records of a sweep. `sweep` holds what its points have in common.
+fn header(args: &SweepArgs, job: &Job, depth: Depth) -> Value {
+    json!({
+        "kind": "sweep",
+        "schema_version": crate::commands::SCHEMA_VERSION,
+        "sweep": {
+            "software": output::software(),
+            "job": job.words(),
+            "triangles": job.facts.triangles,
+            "reference_spp": depth.spp,
+            "threads": args.sweep.threads,
+        },
+    })
+}
