@@ -6,6 +6,7 @@
 //! | [`job`] | what it means |
 //! | [`commands`] | one file a command |
 //! | [`device`] | which backend computes, and on what |
+//! | `measure` | what a picture costs, and how far it is from the truth |
 //! | [`input`], [`output`], [`picture`] | files |
 //! | [`progress`] | what is shown meanwhile |
 //! | [`exit`] | failures and their exit codes |
@@ -18,6 +19,7 @@ pub mod exit;
 pub mod input;
 mod interrupt;
 pub mod job;
+mod measure;
 pub mod output;
 pub mod picture;
 pub mod progress;

@@ -1,6 +1,6 @@
 //! What a sweep comes to: the front, and the cheapest settings for an error or the best for a time.
 
-use super::front::front;
+use crate::measure::front;
 use serde_json::{Value, json};
 
 /// Errors that users ask for, in percent.

@@ -1,29 +1,23 @@
 //! `vsgl sweep`: error against time over a grid of settings, and which of them are worth it.
 
 mod advice;
-mod errors;
-mod front;
 mod grid;
-mod measure;
 mod record;
-mod reference;
 mod report;
 
 use crate::args::{BackendName, Size, SweepArgs};
 use crate::device::{self, Chosen, Host};
 use crate::exit::{Failure, Result};
 use crate::job::{Defaults, Job};
+use crate::measure::{Effort, Layers, Measured, Reference, Wanted, measure};
 use crate::output::exposure::automatic;
 use crate::output::tonemap::Tonemap;
 use crate::output::{self, Metadata, Pending};
 use crate::picture::Picture;
 use crate::progress::{Progress, Steps};
 use crate::{interrupt, text};
-use errors::Layers;
 use grid::{Combination, Grid};
-use measure::{Effort, Measured, measure};
 use record::Records;
-use reference::{Reference, Wanted};
 use serde_json::{Value, json};
 use std::path::Path;
 use std::time::Duration;

@@ -18,11 +18,11 @@ const METRICS: [Metric; 6] = [
 const SIDES: [u32; 2] = [1, 8];
 
 /// Luminance of what is compared.
-pub(super) struct Layers {
+pub(crate) struct Layers {
     /// All light.
-    pub(super) whole: Plane,
+    pub(crate) whole: Plane,
     /// One bounce.
-    pub(super) indirect: Plane,
+    pub(crate) indirect: Plane,
 }
 
 impl Layers {
@@ -30,7 +30,7 @@ impl Layers {
     ///
     /// # Errors
     /// None for a picture of this program.
-    pub(super) fn of(picture: &Picture) -> Result<Self> {
+    pub(crate) fn of(picture: &Picture) -> Result<Self> {
         let plane = |layer: &str| {
             let pixels = picture.rgb(layer).unwrap_or_default();
             Plane::luminance(picture.width, picture.height, &pixels)
@@ -45,7 +45,7 @@ impl Layers {
     ///
     /// # Errors
     /// [`crate::exit::Failure::Usage`] for pictures of two sizes.
-    pub(super) fn errors(&self, reference: &Self) -> Result<Value> {
+    pub(crate) fn errors(&self, reference: &Self) -> Result<Value> {
         let layers = [
             ("whole", &self.whole, &reference.whole),
             ("indirect", &self.indirect, &reference.indirect),

@@ -17,19 +17,19 @@ const WARM_UP: Duration = Duration::from_secs(2);
 
 /// How often a combination is run.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Effort {
+pub(crate) struct Effort {
     /// Runs that are timed.
-    pub(super) runs: u32,
+    pub(crate) runs: u32,
     /// No further run begins when so much time was spent on the combination.
-    pub(super) patience: Duration,
+    pub(crate) patience: Duration,
 }
 
 /// What was found.
-pub(super) struct Measured {
+pub(crate) struct Measured {
     /// The picture.
-    pub(super) image: Image,
+    pub(crate) image: Image,
     /// Clusters that there were.
-    pub(super) lights: Option<u32>,
+    pub(crate) lights: Option<u32>,
     runs: Vec<Run>,
 }
 
@@ -53,7 +53,7 @@ struct Span {
 ///
 /// # Errors
 /// What rendering returns; [`crate::exit::Failure::Interrupted`] if the user wishes.
-pub(super) fn measure<B: Host>(
+pub(crate) fn measure<B: Host>(
     backend: &B,
     scene: &B::Res<SceneData>,
     job: &Job,
@@ -147,23 +147,23 @@ impl Observer for Watch {
 
 impl Measured {
     /// Frames that were timed.
-    pub(super) fn runs(&self) -> usize {
+    pub(crate) fn runs(&self) -> usize {
         self.runs.len()
     }
 
     /// Seconds of a frame by the wall clock.
-    pub(super) fn wall(&self) -> Value {
+    pub(crate) fn wall(&self) -> Value {
         spread(self.runs.iter().map(|r| r.wall))
     }
 
     /// Seconds of a frame by the processor's clock; null where nobody tells.
-    pub(super) fn cpu(&self) -> Value {
+    pub(crate) fn cpu(&self) -> Value {
         let times: Option<Vec<_>> = self.runs.iter().map(|r| r.cpu).collect();
         times.map_or(Value::Null, |times| spread(times.into_iter()))
     }
 
     /// The phases in their order, each with its median over the runs.
-    pub(super) fn phases(&self) -> Value {
+    pub(crate) fn phases(&self) -> Value {
         let count = self.runs.iter().map(|r| r.phases.len()).min().unwrap_or(0);
         let phase = |index: usize| {
             let spans = || self.runs.iter().map(move |r| r.phases[index]);

@@ -2,7 +2,7 @@
 
 /// Indices of the points that no other beats, fastest first; `points` are pairs of time and error. Of equal points the
 /// first counts, and what is not a number is never worth it.
-pub(super) fn front(points: &[(f64, f64)]) -> Vec<usize> {
+pub(crate) fn front(points: &[(f64, f64)]) -> Vec<usize> {
     let numbers = |&i: &usize| points[i].0.is_finite() && points[i].1.is_finite();
     let mut order: Vec<usize> = (0..points.len()).filter(numbers).collect();
     order.sort_by(|&a, &b| {

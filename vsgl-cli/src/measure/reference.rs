@@ -1,6 +1,6 @@
 //! The truth that errors are against: paths of light, in two halves that tell how noisy it is.
 
-use super::errors::Layers;
+use super::Layers;
 use crate::device::Host;
 use crate::exit::{Failure, Result};
 use crate::job::{Job, settings_json};
@@ -20,23 +20,23 @@ const HALVES: [&str; 2] = ["reference-a.exr", "reference-b.exr"];
 const WHOLE: &str = "reference.exr";
 
 /// The reference of a sweep.
-pub(super) struct Reference {
+pub(crate) struct Reference {
     /// What is compared.
-    pub(super) layers: Layers,
+    pub(crate) layers: Layers,
     /// Colours of all light, for pictures of it.
-    pub(super) pixels: Vec<[f32; 3]>,
+    pub(crate) pixels: Vec<[f32; 3]>,
     /// Its own errors, as far as noise makes them.
-    pub(super) noise: Value,
+    pub(crate) noise: Value,
 }
 
 /// What is rendered for a reference.
-pub(super) struct Wanted<'a> {
+pub(crate) struct Wanted<'a> {
     /// Scene, lights and view.
-    pub(super) job: &'a Job,
+    pub(crate) job: &'a Job,
     /// Paths through each pixel, both halves together.
-    pub(super) spp: u32,
+    pub(crate) spp: u32,
     /// Folder that keeps them.
-    pub(super) folder: &'a Path,
+    pub(crate) folder: &'a Path,
 }
 
 impl Wanted<'_> {
@@ -47,7 +47,7 @@ impl Wanted<'_> {
     ///
     /// # Errors
     /// What rendering, reading and writing return.
-    pub(super) fn get<B: Host>(
+    pub(crate) fn get<B: Host>(
         &self,
         backend: &B,
         scene: &B::Res<SceneData>,
