@@ -9,3 +9,4 @@ mod interrupt;
 mod parity;
 mod render;
 mod run;
+mod sweep;

@@ -16,6 +16,7 @@ Every combination of settings is rendered and timed, and compared with the metho
   sweep.csv      the same as a table
   reference.exr  the truth that the errors are against
   pictures/      a PNG of each combination
+The reference has 512 paths through each pixel, 256 with --quick, or as many as --spp says.
 Run the same command again after an interruption: what is there is not done again.";
 
 /// Arguments of `vsgl sweep`.
@@ -28,7 +29,7 @@ pub struct SweepArgs {
     /// Size and samples; 320x180 unless given with --quick.
     #[command(flatten)]
     pub view: ViewArgs,
-    /// What all combinations share: a setting that is given here is not swept.
+    /// What all combinations share: a setting that is given here is not swept. `--spp` is that of the reference.
     #[command(flatten)]
     pub settings: SettingsArgs,
     /// What is swept, where it goes, and what is shown meanwhile.

@@ -22,6 +22,7 @@ use serde_json::{Value, json};
 use std::path::Path;
 use std::time::Duration;
 use vsgl_core::data::SceneData;
+use vsgl_core::settings::Settings;
 
 /// Size of the picture with `--quick`.
 const QUICK: Size = Size {
@@ -115,15 +116,20 @@ impl<'a> Sweep<'a> {
         if out.quick {
             defaults.size = QUICK;
         }
-        let job = Job::with(&args.scene, &args.view, &args.settings, &defaults)?;
+        let mut job = Job::with(&args.scene, &args.view, &args.settings, &defaults)?;
         job.check_drawable()?;
         for warning in &job.warnings {
             text::warn(&format!("warning: {warning}"));
         }
-        let grid = Grid::new(&job, &args.settings, &out.grid, out.quick)?;
         let mut depth = if out.quick { HASTY } else { THOROUGH };
+        let usual = Settings::default().spp;
+        // Paths are those of the reference.
+        if job.settings.spp != usual {
+            depth.spp = std::mem::replace(&mut job.settings.spp, usual);
+        }
         depth.runs = out.runs.unwrap_or(depth.runs);
         depth.longest = out.longest.unwrap_or(depth.longest);
+        let grid = Grid::new(&job, &args.settings, &out.grid, out.quick)?;
         interrupt::listen()?;
         let records = Records::open(&out.output, header(args, &job, depth))?;
         Ok(Self {
