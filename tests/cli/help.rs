@@ -7,7 +7,7 @@ use std::process::Stdio;
 #[test]
 fn each_command_shows_examples_and_exit_codes() {
     let folder = Folder::new();
-    for command in ["render", "info", "compare", "parity"] {
+    for command in ["render", "merge", "info", "compare", "parity"] {
         let help = folder.run(&format!("{command} --help")).ok();
         assert!(
             help.contains("Examples:") && help.contains("Exit codes:"),
@@ -22,7 +22,9 @@ fn each_command_shows_examples_and_exit_codes() {
         assert!(short.len() < help.len() && !short.contains("Exit codes:"));
     }
     let help = folder.run("--help").ok();
-    for code in ["0  ", "1  ", "2  ", "3  ", "4  ", "5  ", "70 ", "130"] {
+    for code in [
+        "0  ", "1  ", "2  ", "3  ", "4  ", "5  ", "6  ", "70 ", "130",
+    ] {
         assert!(help.contains(code), "no exit code {code}");
     }
     assert!(folder.run("--version").ok().starts_with("vsgl "));

@@ -7,6 +7,7 @@ mod help;
 mod info;
 mod interrupt;
 mod parity;
+mod parts;
 mod render;
 mod run;
 mod sweep;

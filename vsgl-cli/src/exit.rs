@@ -21,6 +21,9 @@ pub enum Failure {
     /// Output that cannot be written.
     #[error("{0}")]
     Output(String),
+    /// Parts of a picture that do not fit together.
+    #[error("{0}")]
+    Parts(String),
     /// A fault of this program.
     #[error("internal error: {0}; please report it with the command")]
     Internal(String),
@@ -42,6 +45,7 @@ Exit codes:
   3    input that cannot be read or used
   4    no device to compute on, or one that failed
   5    output that cannot be written
+  6    parts of a picture that do not fit together
   70   internal error
   130  interrupted";
 
@@ -54,6 +58,7 @@ impl Failure {
             Self::Input(_) => 3,
             Self::Device(_) => 4,
             Self::Output(_) => 5,
+            Self::Parts(_) => 6,
             Self::Internal(_) => 70,
             Self::Interrupted(_) => 130,
         }

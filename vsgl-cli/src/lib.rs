@@ -8,6 +8,8 @@
 //! | [`device`] | which backend computes, and on what |
 //! | `measure` | what a picture costs, and how far it is from the truth |
 //! | [`input`], [`output`], [`picture`] | files |
+//! | [`part`] | some samples of a picture of paths, to be merged or gone on from |
+//! | [`paths`], [`fingerprint`] | a picture of paths on its way |
 //! | [`progress`] | what is shown meanwhile |
 //! | [`exit`] | failures and their exit codes |
 
@@ -16,11 +18,14 @@ mod clock;
 pub mod commands;
 pub mod device;
 pub mod exit;
+pub mod fingerprint;
 pub mod input;
 mod interrupt;
 pub mod job;
 mod measure;
 pub mod output;
+pub mod part;
+pub mod paths;
 pub mod picture;
 pub mod progress;
 mod text;

@@ -48,6 +48,22 @@ impl Picture {
         picture
     }
 
+    /// The rendered picture with these layers; none if one is missing.
+    pub fn to_image(&self) -> Option<Image> {
+        let [x, y, z] = ["N.X", "N.Y", "N.Z"].map(|name| self.channel(name));
+        let normal = x?.iter().zip(y?).zip(z?);
+        Some(Image {
+            width: self.width,
+            height: self.height,
+            direct: self.rgb("direct")?,
+            indirect_diffuse: self.rgb("indirect_diffuse")?,
+            indirect_glossy: self.rgb("indirect_glossy")?,
+            albedo: self.rgb("albedo")?,
+            normal: normal.map(|((&x, &y), &z)| [x, y, z]).collect(),
+            depth: self.channel("Z")?.to_vec(),
+        })
+    }
+
     /// A picture of one colour layer.
     pub fn from_rgb(width: u32, height: u32, pixels: &[[f32; 3]]) -> Self {
         let mut picture = Self {

@@ -6,13 +6,15 @@ use crate::text;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
 use std::sync::{Mutex, PoisonError};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 use vsgl_core::render::{Observer, Phase};
 
 /// Shows the phases, notes their times, and passes on the wish to stop.
 #[derive(Debug)]
 pub struct Progress {
     show: Show,
+    /// When the current phase began.
+    began: Mutex<Instant>,
     times: Mutex<Vec<(Phase, Duration)>>,
 }
 
@@ -35,8 +37,18 @@ impl Progress {
         };
         Self {
             show,
+            began: Mutex::new(Instant::now()),
             times: Mutex::new(Vec::new()),
         }
+    }
+
+    /// How long the current phase still takes, of which a share is done; nothing before a hundredth of it, or of less than a
+    /// second.
+    fn left(&self, share: f32) -> Option<String> {
+        let began = *self.began.lock().unwrap_or_else(PoisonError::into_inner);
+        let share = f64::from(share);
+        let seconds = began.elapsed().as_secs_f64() * (1.0 - share) / share;
+        (share >= 0.01 && seconds >= 1.0).then(|| time(seconds as u64))
     }
 
     /// The phases that ran with their wall times, and an end to all that is shown.
@@ -50,9 +62,20 @@ impl Progress {
     }
 }
 
+/// A time in words of two units at most.
+fn time(seconds: u64) -> String {
+    let (minutes, hours) = (seconds / 60, seconds / 3600);
+    match (hours, minutes) {
+        (0, 0) => format!("{seconds} s"),
+        (0, _) => format!("{minutes} min {} s", seconds % 60),
+        _ => format!("{hours} h {} min", minutes % 60),
+    }
+}
+
 fn bar() -> ProgressBar {
     let bar = ProgressBar::with_draw_target(Some(1000), ProgressDrawTarget::stderr());
-    if let Ok(style) = ProgressStyle::with_template("{msg:9} {wide_bar} {percent:>3} %  {elapsed}")
+    if let Ok(style) =
+        ProgressStyle::with_template("{msg:9} {wide_bar} {percent:>3} %  {elapsed}{prefix}")
     {
         bar.set_style(style);
     }
@@ -61,10 +84,12 @@ fn bar() -> ProgressBar {
 
 impl Observer for Progress {
     fn started(&self, phase: Phase) {
+        *self.began.lock().unwrap_or_else(PoisonError::into_inner) = Instant::now();
         match &self.show {
             Show::Nothing => {}
             Show::Bar(bar) => {
                 bar.set_message(phase.to_string());
+                bar.set_prefix("");
                 bar.set_position(0);
                 bar.tick();
             }
@@ -78,13 +103,19 @@ impl Observer for Progress {
     fn advanced(&self, phase: Phase, share: f32) {
         match &self.show {
             Show::Nothing => {}
-            Show::Bar(bar) => bar.set_position((share * 1000.0) as u64),
+            Show::Bar(bar) => {
+                bar.set_position((share * 1000.0) as u64);
+                if let Some(left) = self.left(share) {
+                    bar.set_prefix(format!(", {left} left"));
+                }
+            }
             Show::Lines(shown) => {
                 let tenth = (share * 10.0) as u32;
                 let mut shown = shown.lock().unwrap_or_else(PoisonError::into_inner);
                 if tenth > *shown && tenth < 10 {
                     *shown = tenth;
-                    text::warn(&format!("{phase} {tenth}0 %"));
+                    let left = self.left(share).map(|left| format!(", {left} left"));
+                    text::warn(&format!("{phase} {tenth}0 %{}", left.unwrap_or_default()));
                 }
             }
         }
@@ -152,5 +183,36 @@ impl Steps {
         if let Some(bar) = &self.bar {
             bar.finish_and_clear();
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_have_two_units() {
+        for (seconds, words) in [
+            (0, "0 s"),
+            (59, "59 s"),
+            (61, "1 min 1 s"),
+            (3599, "59 min 59 s"),
+            (90_000, "25 h 0 min"),
+        ] {
+            assert_eq!(time(seconds), words);
+        }
+    }
+
+    #[test]
+    fn time_left_follows_from_the_share() {
+        let progress = Progress::new(When::Never);
+        progress.started(Phase::Trace);
+        let Some(earlier) = Instant::now().checked_sub(Duration::from_secs(100)) else {
+            return;
+        };
+        *progress.began.lock().expect("nobody else") = earlier;
+        assert_eq!(progress.left(0.5).as_deref(), Some("1 min 40 s"));
+        assert_eq!(progress.left(0.0), None);
+        assert_eq!(progress.left(1.0), None);
     }
 }

@@ -49,7 +49,7 @@ pub mod scene;
 #[cfg(feature = "render")]
 pub mod settings;
 #[cfg(feature = "render")]
-mod trace;
+pub mod trace;
 
 pub use glam;
 

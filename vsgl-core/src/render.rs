@@ -5,7 +5,7 @@ use crate::data::{GBuffer, Image, Occlusion, Pdf, Radiance, Rsm, SceneData, Vsgl
 use crate::error::{Error, Result};
 use crate::plan::Plan;
 use crate::scene::{Camera, Light};
-use crate::trace;
+use crate::trace::Paths;
 use std::fmt;
 use std::time::{Duration, Instant};
 
@@ -182,7 +182,14 @@ pub fn render<B: Backend>(
     observer: &dyn Observer,
 ) -> Result<Frame<B>> {
     if plan.path.is_some() {
-        return trace::frame(backend, scene, lights, view, plan, observer);
+        let paths = Paths {
+            backend,
+            scene,
+            lights,
+            view,
+            plan,
+        };
+        return paths.frame(observer);
     }
     let bounce = plan.bounce.as_ref();
     let rsm = bounce

@@ -2,6 +2,7 @@
 
 mod compare;
 mod lobe;
+mod merge;
 mod parity;
 mod render;
 mod scene;
@@ -11,8 +12,9 @@ mod words;
 
 pub use compare::{CompareArgs, Limit};
 pub use lobe::LobeArgs;
+pub use merge::MergeArgs;
 pub use parity::ParityArgs;
-pub use render::{BackendName, InfoArgs, OutputArgs, RenderArgs, When};
+pub use render::{BackendName, DisplayArgs, InfoArgs, OutputArgs, PartArgs, RenderArgs, When};
 pub use scene::{SceneArgs, ViewArgs};
 pub use settings::SettingsArgs;
 pub use sweep::{SweepArgs, SweepOutputArgs};
@@ -46,6 +48,8 @@ pub struct Cli {
 pub enum Command {
     /// Render a scene to pictures
     Render(Box<RenderArgs>),
+    /// Put parts of a picture of paths together
+    Merge(MergeArgs),
     /// Show what a scene holds and what would run, and why; without a scene, what this program offers
     Info(Box<InfoArgs>),
     /// Compare a picture with a reference: error metrics, limits, a false-colour map

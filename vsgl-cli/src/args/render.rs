@@ -1,9 +1,11 @@
 //! Arguments of `vsgl render` and `vsgl info`.
 
+use super::words::samples;
 use super::{SceneArgs, SettingsArgs, ViewArgs};
 use crate::output::exposure::Exposure;
 use crate::output::tonemap::Tonemap;
 use clap::{Args, ValueEnum};
+use std::ops::Range;
 use std::path::PathBuf;
 
 const RENDER_EXAMPLES: &str = "\
@@ -11,7 +13,9 @@ Examples:
   vsgl render -o cornell.png
   vsgl render room.glb -o room.png -o room.exr --size 1280x720 --aa 2 --lights 4096
   vsgl render room.glb -o room.png --look-at 0,1.6,4:0,1,0 --fov 50 --spot 0,2.4,0:1,0,1:90:40:30
-  vsgl render room.glb -o reference.exr --method vpl --stride 3 --occlusion none";
+  vsgl render room.glb -o reference.exr --method vpl --stride 3 --occlusion none
+  vsgl render room.glb -o truth.exr --method path --spp 4096 --resume
+  vsgl render room.glb -o part.exr --method path --spp 4096 --samples 1024:2048";
 
 const INFO_EXAMPLES: &str = "\
 Examples:
@@ -32,9 +36,58 @@ pub struct RenderArgs {
     /// How light is computed.
     #[command(flatten)]
     pub settings: SettingsArgs,
+    /// Which samples of paths.
+    #[command(flatten)]
+    pub part: PartArgs,
     /// What is written, and what is shown meanwhile.
     #[command(flatten)]
     pub output: OutputArgs,
+}
+
+/// Parts of a picture of paths, and going on with one.
+#[derive(Args, Clone, Debug, Default, PartialEq)]
+#[command(next_help_heading = "Parts (with --method path, into .exr)")]
+pub struct PartArgs {
+    /// Render these of the --spp samples alone, from A up to B: a part, which `vsgl merge` adds to others
+    ///
+    /// A and B are multiples of 8, or B is all. Parts of any ranges are merged to the bits of the whole picture.
+    #[arg(long, value_name = "A:B", value_parser = samples)]
+    pub samples: Option<Range<u32>>,
+    /// Go on from the samples that the output holds, if it is there, and save them every five minutes
+    ///
+    /// After Ctrl-C, or whatever else ended the program, the same command with this goes on. The picture has the bits of one that was
+    /// never interrupted. Done is done: a whole picture is not rendered again.
+    #[arg(long)]
+    pub resume: bool,
+}
+
+/// How a PNG looks.
+#[derive(Args, Clone, Debug)]
+#[command(next_help_heading = "Output")]
+pub struct DisplayArgs {
+    /// Exposure of a PNG in stops
+    ///
+    /// auto: the geometric mean of the lit pixels' luminance goes to 0.25, or lower where that would put more than one
+    /// lit pixel in twenty above 1.5.
+    #[arg(long, value_name = "auto|EV", default_value = "auto", value_parser = Exposure::parse, allow_hyphen_values = true)]
+    pub exposure: Exposure,
+    /// Tone curve of a PNG: Khronos PBR Neutral, or none
+    #[arg(long, value_enum, default_value = "neutral")]
+    pub tonemap: Tonemap,
+}
+
+impl DisplayArgs {
+    /// Flags that decide how a PNG looks, where they differ from the usual.
+    pub fn words(&self) -> Vec<String> {
+        let mut words = Vec::new();
+        if let Exposure::Stops(stops) = self.exposure {
+            words.push(format!("--exposure={stops}"));
+        }
+        if self.tonemap != Tonemap::Neutral {
+            words.extend(["--tonemap".into(), self.tonemap.word().into()]);
+        }
+        words
+    }
 }
 
 /// Outputs and reports of `vsgl render`.
@@ -49,15 +102,9 @@ pub struct OutputArgs {
         required_unless_present = "dump"
     )]
     pub files: Vec<PathBuf>,
-    /// Exposure of a PNG in stops
-    ///
-    /// auto: the geometric mean of the lit pixels' luminance goes to 0.25, or lower where that would put more than one
-    /// lit pixel in twenty above 1.5.
-    #[arg(long, value_name = "auto|EV", default_value = "auto", value_parser = Exposure::parse, allow_hyphen_values = true)]
-    pub exposure: Exposure,
-    /// Tone curve of a PNG: Khronos PBR Neutral, or none
-    #[arg(long, value_enum, default_value = "neutral")]
-    pub tonemap: Tonemap,
+    /// How a PNG looks.
+    #[command(flatten)]
+    pub display: DisplayArgs,
     /// Write pictures of the reflective shadow maps, the density and the clusters to DIR
     #[arg(long, value_name = "DIR")]
     pub dump: Option<PathBuf>,

@@ -1,6 +1,7 @@
 //! Values of several parts, such as `--spot px,py,pz:tx,ty,tz:I:OUTER`.
 
 use std::fmt;
+use std::ops::Range;
 
 /// Width and height of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -233,6 +234,18 @@ pub(super) fn duration(word: &str) -> Result<f64, String> {
         .ok_or_else(|| "give a number of seconds above 0, at most a million".into())
 }
 
+/// Reads a range of samples `A:B`.
+///
+/// # Errors
+/// What would be accepted.
+pub(super) fn samples(word: &str) -> Result<Range<u32>, String> {
+    let ends = word.split_once(':');
+    let range = ends.and_then(|(a, b)| Some(a.parse().ok()?..b.parse().ok()?));
+    range
+        .filter(|r: &Range<u32>| !r.is_empty())
+        .ok_or_else(|| "give A:B, such as 0:64, with A below B".into())
+}
+
 fn point(word: &str) -> Result<[f64; 3], String> {
     let problem = || format!("`{word}` is no point; give three numbers x,y,z in metres");
     let coordinates = numbers(word).ok_or_else(problem)?;
@@ -313,6 +326,25 @@ mod tests {
         assert_eq!(grey, Ok([7.0; 3]));
         let word = "-278,273,800:-278,273,-280";
         assert_eq!(LookAt::parse(word).map(|l| l.to_string()), Ok(word.into()));
+    }
+
+    #[test]
+    fn samples_are_a_range() {
+        assert_eq!(samples("8:24"), Ok(8..24));
+        for bad in [
+            "",
+            "8",
+            "8:",
+            ":8",
+            "8:8",
+            "24:8",
+            "-8:8",
+            "8:NaN",
+            "1:2:3",
+            "0:9999999999",
+        ] {
+            assert!(samples(bad).is_err(), "{bad}");
+        }
     }
 
     #[test]

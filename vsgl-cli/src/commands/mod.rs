@@ -6,9 +6,11 @@ mod dump;
 mod facts;
 mod info;
 pub mod lobe;
+mod merge;
 mod pages;
 mod parity;
 mod render;
+mod sheet;
 mod sweep;
 
 pub(crate) use facts::count;
@@ -26,6 +28,7 @@ pub const SCHEMA_VERSION: u32 = 1;
 pub fn run(cli: Cli) -> Result<()> {
     match cli.command {
         Command::Render(args) => render::run(&args),
+        Command::Merge(args) => merge::run(&args),
         Command::Info(args) => info::run(&args),
         Command::Compare(args) => compare::run(&args),
         Command::Parity(args) => parity::run(&args),

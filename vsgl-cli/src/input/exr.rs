@@ -1,12 +1,25 @@
 //! Reading OpenEXR: any part, any compression that the crate knows.
 
 use super::check_size;
+use crate::output::Metadata;
+use crate::output::exr::{SETTINGS, WORDS, WORDS_MAX, Words};
 use crate::picture::{Channel, Picture};
 use exr::prelude as e;
 use exr::prelude::{ReadChannels, ReadLayers};
 
-/// Most numbers of a file that is read: a gibibyte of them.
+/// Most numbers of a file that is read, besides sums: a gibibyte of them.
 const VALUES_MAX: u64 = 1 << 28;
+
+/// What a file holds.
+#[derive(Clone, Debug, Default)]
+pub struct Opened {
+    /// The channels, but for those of sums.
+    pub picture: Picture,
+    /// Channels of sums.
+    pub words: Vec<Words>,
+    /// What the first part says about itself; empty where it says nothing.
+    pub metadata: Metadata,
+}
 
 /// Reads all parts into one picture, in the display window of the first. Channels of a named part get the name as
 /// prefix, as if they were a layer of the one part that most files have.
@@ -14,6 +27,14 @@ const VALUES_MAX: u64 = 1 << 28;
 /// # Errors
 /// What is wrong with the file.
 pub fn parse(bytes: &[u8]) -> Result<Picture, String> {
+    Ok(open(bytes)?.picture)
+}
+
+/// As [`parse`], with whole numbers and metadata.
+///
+/// # Errors
+/// What is wrong with the file.
+pub fn open(bytes: &[u8]) -> Result<Opened, String> {
     check_headers(bytes)?;
     let image = e::read()
         .no_deep_data()
@@ -30,6 +51,9 @@ pub fn parse(bytes: &[u8]) -> Result<Picture, String> {
         height: window.size.1 as u32,
         channels: Vec::new(),
     };
+    let mut words = Vec::new();
+    let first = image.layer_data.first();
+    let metadata = first.map(|layer| metadata(&layer.attributes));
     for layer in &image.layer_data {
         let bounds = layer.absolute_bounds();
         let prefix = match &layer.attributes.layer_name {
@@ -40,14 +64,41 @@ pub fn parse(bytes: &[u8]) -> Result<Picture, String> {
             if channel.sampling != e::Vec2(1, 1) {
                 return Err(format!("channel {} has fewer pixels", channel.name));
             }
+            let name = format!("{prefix}{}", channel.name);
+            if let e::FlatSamples::U32(values) = &channel.sample_data
+                && name.starts_with(WORDS)
+                && bounds == window
+            {
+                let values = values.clone();
+                words.push(Words { name, values });
+                continue;
+            }
             let values: Vec<f32> = channel.sample_data.values_as_f32().collect();
             picture.channels.push(Channel {
-                name: format!("{prefix}{}", channel.name),
+                name,
                 values: place(values, bounds, window),
             });
         }
     }
-    Ok(picture)
+    Ok(Opened {
+        picture,
+        words,
+        metadata: metadata.unwrap_or_default(),
+    })
+}
+
+fn metadata(attributes: &e::LayerAttributes) -> Metadata {
+    let text = |text: &Option<e::Text>| text.as_ref().map(e::Text::to_string).unwrap_or_default();
+    let mut metadata = Metadata {
+        software: text(&attributes.software_name),
+        command: text(&attributes.comments),
+        world_to_camera: attributes.world_to_camera,
+        ..Metadata::default()
+    };
+    if let Some(e::AttributeValue::Text(text)) = attributes.other.get(&e::Text::from(SETTINGS)) {
+        metadata.set_document(serde_json::from_str(&text.to_string()).unwrap_or_default());
+    }
+    metadata
 }
 
 /// Looks at sizes before anything is allocated for them.
@@ -56,10 +107,13 @@ fn check_headers(bytes: &[u8]) -> Result<(), String> {
     let mut values = 0u64;
     for header in &meta.headers {
         let window = header.shared_attributes.display_window.size;
+        let names = header.channels.list.iter().map(|c| c.name.to_string());
+        let sums = names.filter(|name| name.starts_with(WORDS)).count();
+        let channels = header.channels.list.len() - sums.min(WORDS_MAX);
         for size in [window, header.layer_size] {
             check_size(size.0 as u64, size.1 as u64)?;
             let pixels = size.0 as u64 * size.1 as u64;
-            values = values.saturating_add(pixels * header.channels.list.len() as u64);
+            values = values.saturating_add(pixels * channels as u64);
         }
     }
     if values > 2 * VALUES_MAX {

@@ -57,7 +57,7 @@ pub fn read(path: &Path) -> Result<Read> {
 }
 
 /// All bytes of a picture; only the first of anything else, which may have no end.
-fn bytes(path: &Path) -> std::io::Result<Vec<u8>> {
+pub(crate) fn bytes(path: &Path) -> std::io::Result<Vec<u8>> {
     let mut file = std::fs::File::open(path)?;
     let mut bytes = Vec::new();
     file.by_ref()
@@ -71,6 +71,11 @@ fn bytes(path: &Path) -> std::io::Result<Vec<u8>> {
         return Err(std::io::Error::other(problem));
     }
     Ok(bytes)
+}
+
+/// Whether these are the bytes of an EXR file.
+pub(crate) fn is_exr(bytes: &[u8]) -> bool {
+    bytes.starts_with(EXR_MAGIC)
 }
 
 /// Refuses what would not fit into memory.

@@ -117,6 +117,7 @@ impl Wanted<'_> {
             command,
             world_to_camera: Some(self.job.world_to_camera()),
             settings,
+            paths: None,
         };
         file.write(|file| output::exr::write(file, picture, &metadata))
     }

@@ -6,10 +6,23 @@ use exr::prelude as e;
 use smallvec::SmallVec;
 use std::io::{Seek, Write};
 
-/// Writes a picture with its metadata.
-///
-/// The bytes depend on nothing but the arguments: no date, no host, no order of a hash table (hence all of ours is in
-/// one attribute).
+/// A channel of whole numbers.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Words {
+    /// Name as in EXR files.
+    pub name: String,
+    /// The numbers, row-major from the top left.
+    pub values: Vec<u32>,
+}
+
+/// Beginning of the names of such channels.
+pub const WORDS: &str = "sums.";
+/// Most channels of whole numbers.
+pub const WORDS_MAX: usize = 4 * vsgl_core::trace::Sums::CHANNELS.len();
+/// Name of the attribute with the settings.
+pub const SETTINGS: &str = "vsgl:settings";
+
+/// As [`write_with`], without whole numbers.
 ///
 /// # Errors
 /// What the writer returns.
@@ -18,11 +31,32 @@ pub fn write(
     picture: Picture,
     metadata: &Metadata,
 ) -> Result<(), exr::error::Error> {
-    let channels: SmallVec<[_; 4]> = picture
+    write_with(file, picture, Vec::new(), metadata)
+}
+
+/// Writes a picture with its metadata.
+///
+/// The bytes depend on nothing but the arguments: no date, no host, no order of a hash table (hence all of ours is in
+/// one attribute).
+///
+/// # Errors
+/// What the writer returns.
+pub fn write_with(
+    file: impl Write + Seek,
+    picture: Picture,
+    words: Vec<Words>,
+    metadata: &Metadata,
+) -> Result<(), exr::error::Error> {
+    let mut channels: SmallVec<[_; 4]> = picture
         .channels
         .into_iter()
         .map(|c| e::AnyChannel::new(text(&c.name), e::FlatSamples::F32(c.values)))
         .collect();
+    channels.extend(
+        words
+            .into_iter()
+            .map(|w| e::AnyChannel::new(text(&w.name), e::FlatSamples::U32(w.values))),
+    );
     let encoding = e::Encoding {
         compression: e::Compression::ZIP16,
         blocks: e::Blocks::ScanLines,
@@ -34,8 +68,8 @@ pub fn write(
         world_to_camera: metadata.world_to_camera,
         ..e::LayerAttributes::default()
     };
-    let settings = e::AttributeValue::Text(text(&metadata.settings.to_string()));
-    attributes.other.insert(text("vsgl:settings"), settings);
+    let settings = e::AttributeValue::Text(text(&metadata.document().to_string()));
+    attributes.other.insert(text(SETTINGS), settings);
     let size = (picture.width as usize, picture.height as usize);
     let layer = e::Layer::new(size, attributes, encoding, e::AnyChannels::sort(channels));
     let mut image = e::Image::from_layer(layer);
@@ -93,6 +127,7 @@ mod tests {
             command: "vsgl render \"é\"".into(),
             world_to_camera: None,
             settings: json!({"scene": "ä😀", "lights": 7}),
+            paths: None,
         }
     }
 
@@ -124,7 +159,7 @@ mod tests {
         let meta = exr::meta::MetaData::read_from_buffered(file.get_ref().as_slice(), true);
         let meta = meta.expect("own files are readable");
         let own = &meta.headers[0].own_attributes;
-        let Some(e::AttributeValue::Text(settings)) = own.other.get(&text("vsgl:settings")) else {
+        let Some(e::AttributeValue::Text(settings)) = own.other.get(&text(SETTINGS)) else {
             panic!("no settings");
         };
         let settings: serde_json::Value =

@@ -13,7 +13,11 @@ pub mod tonemap;
 pub use pending::{Pending, folder_of, remove_all};
 
 use crate::exit::{Failure, Result};
+use serde_json::Value;
 use std::path::{Path, PathBuf};
+
+/// Key of the samples among the settings of a picture of paths.
+const PATHS: &str = "paths";
 
 /// What a file says about how it was made. It holds neither times nor names of files nor the number of threads, so
 /// that equal pictures are equal files.
@@ -26,7 +30,30 @@ pub struct Metadata {
     /// World to camera space (x right, y up, z to the viewer), for row vectors as OpenEXR has it.
     pub world_to_camera: Option<[f32; 16]>,
     /// All settings.
-    pub settings: serde_json::Value,
+    pub settings: Value,
+    /// Which samples a picture of paths holds; see [`crate::part::About`].
+    pub paths: Option<Value>,
+}
+
+impl Metadata {
+    /// Settings and samples in one document.
+    #[must_use]
+    pub fn document(&self) -> Value {
+        let mut document = self.settings.clone();
+        if let (Value::Object(map), Some(paths)) = (&mut document, &self.paths) {
+            map.insert(PATHS.into(), paths.clone());
+        }
+        document
+    }
+
+    /// Takes such a document apart.
+    pub fn set_document(&mut self, mut document: Value) {
+        self.paths = match &mut document {
+            Value::Object(map) => map.remove(PATHS),
+            _ => None,
+        };
+        self.settings = document;
+    }
 }
 
 /// Name and version of this program.

@@ -24,6 +24,21 @@ impl Pending {
     /// # Errors
     /// [`Failure::Output`] if there can be no such file.
     pub fn create(path: &Path) -> Result<Self> {
+        Self::named(path, "partial")
+    }
+
+    /// Writes another file into the place, while this one is still to be.
+    ///
+    /// # Errors
+    /// As [`Pending::create`] and [`Pending::write`].
+    pub fn write_before<E: std::fmt::Display>(
+        &self,
+        content: impl FnOnce(&mut BufWriter<File>) -> std::result::Result<(), E>,
+    ) -> Result<()> {
+        Self::named(&self.path, "saved")?.write(content)
+    }
+
+    fn named(path: &Path, suffix: &str) -> Result<Self> {
         let fail = |problem: &dyn std::fmt::Display| {
             Failure::output(
                 path,
@@ -38,7 +53,7 @@ impl Pending {
         let folder = folder_of(path);
         fs::create_dir_all(folder).map_err(|e| fail(&e))?;
         let temporary = folder.join(format!(
-            ".{}.{}.partial",
+            ".{}.{}.{suffix}",
             name.to_string_lossy(),
             std::process::id()
         ));
@@ -139,6 +154,21 @@ mod tests {
         });
         assert_eq!(written.map_err(|f| f.code()), Err(5));
         assert_eq!(fs::read(&path).expect("readable"), b"old");
+        assert_eq!(entries(folder.path()), 1);
+    }
+
+    #[test]
+    fn what_is_saved_on_the_way_is_complete_too() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let path = folder.path().join("a.txt");
+        let pending = Pending::create(&path).expect("creatable");
+        for text in ["some", "more"] {
+            let saved = pending.write_before(|w| w.write_all(text.as_bytes()));
+            saved.expect("writable");
+            assert_eq!(fs::read(&path).expect("readable"), text.as_bytes());
+        }
+        pending.write(|w| w.write_all(b"all")).expect("writable");
+        assert_eq!(fs::read(&path).expect("readable"), b"all");
         assert_eq!(entries(folder.path()), 1);
     }
 

@@ -20,7 +20,7 @@ pub fn write(
     encoder.set_source_srgb(png::SrgbRenderingIntent::RelativeColorimetric);
     encoder.add_itxt_chunk("Software".into(), metadata.software.clone())?;
     encoder.add_itxt_chunk("Comment".into(), metadata.command.clone())?;
-    encoder.add_itxt_chunk("vsgl:settings".into(), metadata.settings.to_string())?;
+    encoder.add_itxt_chunk("vsgl:settings".into(), metadata.document().to_string())?;
     let mut writer = encoder.write_header()?;
     writer.write_image_data(pixels.as_flattened())?;
     writer.finish()
@@ -61,7 +61,7 @@ mod tests {
             .expect("there is a chunk")
             .get_text()
             .expect("plain text");
-        assert_eq!(text, metadata.settings.to_string());
+        assert_eq!(text, metadata.document().to_string());
         for length in 0..file.len() {
             assert!(
                 input::png::parse(&file[..length]).is_err(),

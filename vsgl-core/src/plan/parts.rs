@@ -136,7 +136,7 @@ pub struct PathPlan {
 }
 
 impl PathPlan {
-    /// Paths that are added up in one piece, in f32; pieces are added up in f64 in the order of samples, so that the sum
+    /// Paths that are added up in one piece, in f32; pieces are added up without rounding ([`crate::trace::Sums`]), so that the sum
     /// does not depend on how the work was shared out.
     pub const PIECE: u32 = 8;
 }

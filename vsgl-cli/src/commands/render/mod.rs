@@ -1,21 +1,22 @@
 //! `vsgl render`: from a scene to pictures.
 
+mod paths;
 mod report;
 
 use super::dump;
+use super::sheet::{Sheet, Written};
 use crate::args::{OutputArgs, RenderArgs, When};
 use crate::device::{self, Chosen, Host};
-use crate::exit::Result;
+use crate::exit::{Failure, Result};
 use crate::job::Job;
 use crate::output::{self, Format, Metadata, Pending};
-use crate::picture::Picture;
 use crate::progress::Progress;
 use crate::{interrupt, text};
-use report::{Report, Seconds, Written};
+use report::{Report, Seconds};
 use serde_json::Value;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 use vsgl_core::data::Image;
-use vsgl_core::render::{Frame, render};
+use vsgl_core::render::{Frame, Phase, render};
 
 /// Renders and writes.
 ///
@@ -28,6 +29,7 @@ pub(super) fn run(args: &RenderArgs) -> Result<()> {
     }
     let mut job = Job::new(&args.scene, &args.view, &args.settings)?;
     job.check_drawable()?;
+    paths::check(&job, args)?;
     warn(out, &job.warnings);
     // Before there are temporary files to remove.
     interrupt::listen()?;
@@ -38,9 +40,9 @@ pub(super) fn run(args: &RenderArgs) -> Result<()> {
             if let Some(why) = why.as_ref().filter(|_| !out.quiet && !out.json) {
                 text::warn(&format!("note: computing on the CPU: {why}"));
             }
-            work(&backend, why, &mut job, out, files, dump)
+            work(&backend, why, &mut job, args, files, dump)
         }
-        Chosen::Wgpu(backend) => work(&*backend, None, &mut job, out, files, dump),
+        Chosen::Wgpu(backend) => work(&*backend, None, &mut job, args, files, dump),
     }
 }
 
@@ -48,29 +50,49 @@ fn work<B: Host>(
     backend: &B,
     why: Option<String>,
     job: &mut Job,
-    out: &OutputArgs,
+    args: &RenderArgs,
     files: Vec<(Format, Pending)>,
     dump: Option<dump::Dump>,
 ) -> Result<()> {
-    let (image, senders, mut seconds) = draw(backend, job, out)?;
+    let out = &args.output;
+    let drawn = match job.plan.path {
+        Some(_) => paths::draw(backend, job, args, &files)?,
+        None => draw(backend, job, out)?,
+    };
+    let Drawn {
+        image,
+        senders,
+        mut seconds,
+        paths,
+    } = drawn;
     let notes = notes(&image, dump.is_some() && senders.rsm.is_none());
     warn(out, &notes);
 
     let start = Instant::now();
     let mut written = Vec::new();
+    let sheet = Sheet {
+        metadata: metadata(job, backend.name()),
+        display: &out.display,
+        paths: paths.as_ref().map(|p| (&p.about, p.sums.as_ref())),
+    };
     for (format, file) in files {
-        interrupt::check()?;
-        written.push(write(job, backend.name(), out, &image, format, file)?);
+        // Of paths, what is there is written.
+        if paths.is_none() {
+            interrupt::check()?;
+        }
+        written.push(sheet.write(&image, format, file)?);
     }
     if let Some(dump) = dump {
-        let metadata = metadata(job, job.metadata(backend.name()), &job.words());
-        for (path, format) in dump.write(backend, &senders, &metadata)? {
+        for (path, format) in dump.write(backend, &senders, &sheet.metadata)? {
             written.push(Written::new(path.to_string_lossy().into_owned(), format));
         }
     }
     seconds
         .list
         .push(("write".into(), start.elapsed().as_secs_f64()));
+    if let Some(stopped) = paths.as_ref().and_then(|p| p.stopped(out)) {
+        return Err(Failure::Interrupted(stopped));
+    }
     let clusters = match &senders.vsgls {
         Some(vsgls) => Some(backend.download(vsgls)?.count),
         None => None,
@@ -78,6 +100,8 @@ fn work<B: Host>(
     let report = Report {
         job,
         out,
+        part: &args.part,
+        samples: paths.map(|p| p.about.samples),
         backend: backend.name(),
         device: backend.device(),
         adapter: backend.adapter(),
@@ -96,16 +120,20 @@ fn work<B: Host>(
     text::print(&report.text())
 }
 
+/// A picture, and what it was made of.
+struct Drawn<B: Host> {
+    image: Image,
+    senders: dump::Senders<B>,
+    seconds: Seconds,
+    paths: Option<paths::Traced>,
+}
+
 /// Renders. The scene and what the camera sees are let go as soon as they are not needed any more: a large picture
 /// needs the room.
-fn draw<B: Host>(
-    backend: &B,
-    job: &mut Job,
-    out: &OutputArgs,
-) -> Result<(Image, dump::Senders<B>, Seconds)> {
+fn draw<B: Host>(backend: &B, job: &mut Job, out: &OutputArgs) -> Result<Drawn<B>> {
     let start = Instant::now();
     let scene = backend.upload(job.prepare()?)?;
-    let mut list = vec![("scene".to_owned(), start.elapsed().as_secs_f64())];
+    let list = vec![("scene".to_owned(), start.elapsed().as_secs_f64())];
     let start = Instant::now();
     let progress = Progress::new(if out.quiet { When::Never } else { out.progress });
     let frame = render(
@@ -129,19 +157,32 @@ fn draw<B: Host>(
     drop((scene, gbuffer, radiance));
     let image = backend.download(&image)?;
     let wall = start.elapsed().as_secs_f64();
+    Ok(Drawn {
+        image,
+        senders: dump::Senders {
+            rsm,
+            pdf,
+            vsgls,
+            occlusion,
+        },
+        seconds: seconds(backend, list, called, wall)?,
+        paths: None,
+    })
+}
+
+/// The times of the phases, by the device's clock if it has one, else as they were `called`.
+fn seconds<B: Host>(
+    backend: &B,
+    mut list: Vec<(String, f64)>,
+    called: Vec<(Phase, Duration)>,
+    wall: f64,
+) -> Result<Seconds> {
     let device = backend.times()?;
     let clock = if device.is_some() { "device" } else { "host" };
     for (phase, time) in device.unwrap_or(called) {
         list.push((phase.to_string(), time.as_secs_f64()));
     }
-    let seconds = Seconds { list, wall, clock };
-    let senders = dump::Senders {
-        rsm,
-        pdf,
-        vsgls,
-        occlusion,
-    };
-    Ok((image, senders, seconds))
+    Ok(Seconds { list, wall, clock })
 }
 
 fn warn(out: &OutputArgs, warnings: &[String]) {
@@ -168,65 +209,15 @@ fn notes(image: &Image, nothing_to_dump: bool) -> Vec<String> {
     notes
 }
 
-fn write(
-    job: &Job,
-    backend: &str,
-    out: &OutputArgs,
-    image: &Image,
-    format: Format,
-    file: Pending,
-) -> Result<Written> {
-    let path = file.path().to_string_lossy().into_owned();
-    let mut written = Written::new(path, format.name());
-    let mut settings = job.metadata(backend);
-    let mut words = job.words();
-    match format {
-        Format::Exr => {
-            let metadata = metadata(job, settings, &words);
-            let picture = Picture::from_image(image);
-            file.write(|file| output::exr::write(file, picture, &metadata))?;
-        }
-        Format::Png => {
-            let pixels = image.beauty();
-            let stops = out.exposure.stops(&pixels);
-            written.exposure = Some(stops);
-            settings.insert("exposure".into(), text::json_number(f64::from(stops)));
-            settings.insert("tonemap".into(), out.tonemap.word().into());
-            words.extend(display_words(out));
-            let metadata = metadata(job, settings, &words);
-            let scale = stops.exp2();
-            let code = |p: &[f32; 3]| {
-                out.tonemap
-                    .apply(p.map(|c| c * scale))
-                    .map(output::srgb::code)
-            };
-            let codes: Vec<[u8; 3]> = pixels.iter().map(code).collect();
-            let (width, height) = (image.width, image.height);
-            file.write(|file| output::png::write(file, width, height, &codes, &metadata))?;
-        }
-    }
-    Ok(written)
-}
-
-fn metadata(job: &Job, settings: serde_json::Map<String, Value>, words: &[String]) -> Metadata {
+/// What files say about the picture.
+fn metadata(job: &Job, backend: &str) -> Metadata {
     Metadata {
         software: output::software(),
-        command: command(words),
+        command: command(&job.words()),
         world_to_camera: Some(job.world_to_camera()),
-        settings: Value::Object(settings),
+        settings: Value::Object(job.metadata(backend)),
+        paths: None,
     }
-}
-
-/// Flags that decide how a PNG looks, where they differ from the usual.
-fn display_words(out: &OutputArgs) -> Vec<String> {
-    let mut words = Vec::new();
-    if let output::exposure::Exposure::Stops(stops) = out.exposure {
-        words.push(format!("--exposure={stops}"));
-    }
-    if out.tonemap != output::tonemap::Tonemap::Neutral {
-        words.extend(["--tonemap".into(), out.tonemap.word().into()]);
-    }
-    words
 }
 
 fn command(words: &[String]) -> String {

@@ -1,28 +1,12 @@
 //! What a rendering did, for people and for machines.
 
-use super::{command, display_words};
-use crate::args::OutputArgs;
+use super::command;
+use crate::args::{OutputArgs, PartArgs};
+use crate::commands::sheet::Written;
 use crate::commands::{SCHEMA_VERSION, facts};
 use crate::job::Job;
+use crate::part::Ranges;
 use serde_json::{Value, json};
-
-/// A file that was written.
-pub(super) struct Written {
-    pub(super) path: String,
-    pub(super) format: &'static str,
-    /// Stops of a PNG.
-    pub(super) exposure: Option<f32>,
-}
-
-impl Written {
-    pub(super) fn new(path: String, format: &'static str) -> Self {
-        Self {
-            path,
-            format,
-            exposure: None,
-        }
-    }
-}
 
 /// Where the time went, in seconds.
 pub(super) struct Seconds {
@@ -38,6 +22,9 @@ pub(super) struct Seconds {
 pub(super) struct Report<'a> {
     pub(super) job: &'a Job,
     pub(super) out: &'a OutputArgs,
+    pub(super) part: &'a PartArgs,
+    /// Samples of paths that the picture holds, if it is one of paths.
+    pub(super) samples: Option<Ranges>,
     pub(super) backend: &'static str,
     pub(super) device: String,
     pub(super) adapter: Option<Value>,
@@ -53,9 +40,15 @@ impl Report<'_> {
     /// The command that does the same again, outputs and all.
     fn command(&self) -> String {
         let mut words = self.job.words();
-        words.extend(display_words(self.out));
+        words.extend(self.out.display.words());
         if let Some(name) = self.out.backend.chosen() {
             words.extend(["--backend".into(), name.into()]);
+        }
+        if let Some(range) = &self.part.samples {
+            words.extend(["--samples".into(), format!("{}:{}", range.start, range.end)]);
+        }
+        if self.part.resume {
+            words.push("--resume".into());
         }
         for file in &self.out.files {
             words.extend(["-o".into(), file.to_string_lossy().into_owned()]);
@@ -94,14 +87,13 @@ impl Report<'_> {
             out += &format!("{}  {note}\n", line("picture", self.seconds.wall));
         }
         let (width, height) = self.job.view.pixels();
-        out += &format!("written   {width}x{height}\n");
-        for file in &self.written {
-            out += &format!("  {}  {}", file.path, file.format);
-            if let Some(stops) = file.exposure {
-                out += &format!(", exposure {stops:+.2} stops");
-            }
-            out += "\n";
+        out += &format!("written   {width}x{height}");
+        if let Some(samples) = &self.samples {
+            let of = self.job.settings.spp;
+            out += &format!(", samples {samples} of {of}");
         }
+        out += "\n";
+        out += &self.written.iter().map(Written::text).collect::<String>();
         out
     }
 
@@ -110,8 +102,6 @@ impl Report<'_> {
         let mut document = facts::json(self.job);
         let (width, height) = self.job.view.pixels();
         let phase = |(phase, seconds): &(String, f64)| json!({"phase": phase, "seconds": seconds});
-        let file =
-            |w: &Written| json!({"file": w.path, "format": w.format, "exposure": w.exposure});
         let warnings = [&self.job.warnings[..], &self.notes].concat();
         document["warnings"] = warnings.into();
         document["schema_version"] = SCHEMA_VERSION.into();
@@ -124,10 +114,11 @@ impl Report<'_> {
         document["width"] = width.into();
         document["height"] = height.into();
         document["seed"] = self.job.seed.into();
+        document["samples"] = self.samples.as_ref().map(Ranges::json).into();
         document["phases"] = self.seconds.list.iter().map(phase).collect();
         document["phase_clock"] = self.seconds.clock.into();
         document["picture_seconds"] = self.seconds.wall.into();
-        document["outputs"] = self.written.iter().map(file).collect();
+        document["outputs"] = self.written.iter().map(Written::json).collect();
         document
     }
 }
