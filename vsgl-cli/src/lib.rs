@@ -4,6 +4,7 @@
 //! | --- | --- |
 //! | [`args`] | what was typed |
 //! | [`job`] | what it means |
+//! | `choose` | settings for a time or an error |
 //! | [`commands`] | one file a command |
 //! | [`device`] | which backend computes, and on what |
 //! | `measure` | what a picture costs, and how far it is from the truth |
@@ -14,6 +15,7 @@
 //! | [`exit`] | failures and their exit codes |
 
 pub mod args;
+mod choose;
 mod clock;
 pub mod commands;
 pub mod device;

@@ -14,7 +14,9 @@ pub use compare::{CompareArgs, Limit};
 pub use lobe::LobeArgs;
 pub use merge::MergeArgs;
 pub use parity::ParityArgs;
-pub use render::{BackendName, DisplayArgs, InfoArgs, OutputArgs, PartArgs, RenderArgs, When};
+pub use render::{
+    BackendName, DisplayArgs, GoalArgs, InfoArgs, OutputArgs, PartArgs, RenderArgs, When,
+};
 pub use scene::{SceneArgs, ViewArgs};
 pub use settings::SettingsArgs;
 pub use sweep::{SweepArgs, SweepOutputArgs};

@@ -13,6 +13,7 @@ Examples:
   vsgl render -o cornell.png
   vsgl render room.glb -o room.png -o room.exr --size 1280x720 --aa 2 --lights 4096
   vsgl render room.glb -o room.png --look-at 0,1.6,4:0,1,0 --fov 50 --spot 0,2.4,0:1,0,1:90:40:30
+  vsgl render room.glb -o room.png --budget 200ms
   vsgl render room.glb -o reference.exr --method vpl --stride 3 --occlusion none
   vsgl render room.glb -o truth.exr --method path --spp 4096 --resume
   vsgl render room.glb -o part.exr --method path --spp 4096 --samples 1024:2048";
@@ -39,6 +40,9 @@ pub struct RenderArgs {
     /// Which samples of paths.
     #[command(flatten)]
     pub part: PartArgs,
+    /// Settings that are chosen by measurement.
+    #[command(flatten)]
+    pub goal: GoalArgs,
     /// What is written, and what is shown meanwhile.
     #[command(flatten)]
     pub output: OutputArgs,
@@ -88,6 +92,24 @@ impl DisplayArgs {
         }
         words
     }
+}
+
+/// What settings are chosen for.
+#[derive(Args, Clone, Copy, Debug, Default, PartialEq)]
+#[command(next_help_heading = "Settings chosen by measurement (those that are not given)")]
+pub struct GoalArgs {
+    /// Choose --lights, --interleave and --occlusion for the least error that a frame of this time has, such as 200ms
+    ///
+    /// Small pictures and paths of light tell in some seconds what settings cost and err in this scene on this machine; a few
+    /// frames at the full size correct that. The report says what was predicted and what was measured. The time is that of the
+    /// phases, without reading the scene and writing files.
+    #[arg(long, value_name = "TIME", value_parser = super::words::budget, conflicts_with = "target_error")]
+    pub budget: Option<f64>,
+    /// Choose them for the fastest frame that has this error, such as 5%
+    ///
+    /// The error is the mean absolute percentage error of the indirect light in blocks of 8 by 8 pixels against paths of light.
+    #[arg(long, value_name = "PERCENT", value_parser = super::words::percent)]
+    pub target_error: Option<f64>,
 }
 
 /// Outputs and reports of `vsgl render`.

@@ -5,7 +5,7 @@ use clap::builder::PossibleValuesParser;
 use std::path::PathBuf;
 use vsgl_core::settings::{
     Clustering, DiffuseForm, Emission, GlossyForm, Method, OcclusionMethod, PdfMethod, Preset,
-    Primary,
+    Primary, Settings,
 };
 
 /// Preset, file, keys and flags; each overrides those before it.
@@ -85,6 +85,16 @@ impl SettingsArgs {
         "spp",
         "max_depth",
     ];
+
+    /// Whether somebody chose the value of this key: by a flag, by `--set`, or by a preset or a file that differ from the usual.
+    pub fn chooses(&self, settings: &Settings, key: &str) -> bool {
+        let usual = Settings::default().entries();
+        let differs =
+            |(entry, usual): (&(&str, String), &(&str, String))| entry.0 == key && entry != usual;
+        self.flags().any(|(k, _)| k == key)
+            || self.set.iter().any(|(k, _)| k == key)
+            || settings.entries().iter().zip(&usual).any(differs)
+    }
 
     /// The flags with their values, in the order of [`SettingsArgs::FLAGS`].
     pub fn flags(&self) -> impl Iterator<Item = (&'static str, &str)> {

@@ -246,6 +246,34 @@ pub(super) fn samples(word: &str) -> Result<Range<u32>, String> {
         .ok_or_else(|| "give A:B, such as 0:64, with A below B".into())
 }
 
+/// Reads a length of time with its unit, `200ms` or `1.5s`; without a unit it is seconds.
+///
+/// # Errors
+/// What would be accepted.
+pub(super) fn budget(word: &str) -> Result<f64, String> {
+    let (number, unit) = match (word.strip_suffix("ms"), word.strip_suffix('s')) {
+        (Some(number), _) => (number, 1e-3),
+        (None, Some(number)) => (number, 1.0),
+        (None, None) => (word, 1.0),
+    };
+    let seconds = number.trim().parse().ok().map(|n: f64| n * unit);
+    seconds
+        .filter(|s| (1e-6..=1e6).contains(s))
+        .ok_or_else(|| "give a time such as 200ms or 1.5s".into())
+}
+
+/// Reads a share in percent, `5%` or `5`.
+///
+/// # Errors
+/// What would be accepted.
+pub(super) fn percent(word: &str) -> Result<f64, String> {
+    let number = word.strip_suffix('%').unwrap_or(word);
+    let percent = number.trim().parse().ok();
+    percent
+        .filter(|p: &f64| (1e-3..=1e3).contains(p))
+        .ok_or_else(|| "give an error in percent, such as 5%".into())
+}
+
 fn point(word: &str) -> Result<[f64; 3], String> {
     let problem = || format!("`{word}` is no point; give three numbers x,y,z in metres");
     let coordinates = numbers(word).ok_or_else(problem)?;

@@ -14,8 +14,6 @@ const METRICS: [Metric; 6] = [
     Metric::Relmse,
     Metric::Bias,
 ];
-/// Sides of the blocks that are compared.
-const SIDES: [u32; 2] = [1, 8];
 
 /// Luminance of what is compared.
 pub(crate) struct Layers {
@@ -41,11 +39,11 @@ impl Layers {
         })
     }
 
-    /// Errors by layer, side and metric. A layer without any reference light, or too small for blocks, is null.
+    /// Errors by layer, side of the blocks and metric. A layer without any reference light, or too small for blocks, is null.
     ///
     /// # Errors
     /// [`crate::exit::Failure::Usage`] for pictures of two sizes.
-    pub(crate) fn errors(&self, reference: &Self) -> Result<Value> {
+    pub(crate) fn errors(&self, reference: &Self, sides: &[u32]) -> Result<Value> {
         let layers = [
             ("whole", &self.whole, &reference.whole),
             ("indirect", &self.indirect, &reference.indirect),
@@ -53,7 +51,7 @@ impl Layers {
         let mut document = Map::new();
         for (name, test, reference) in layers {
             let mut scales = Map::new();
-            for side in SIDES {
+            for &side in sides {
                 scales.insert(side.to_string(), scale(test, reference, side)?);
             }
             document.insert(name.into(), scales.into());

@@ -7,5 +7,5 @@ mod times;
 
 pub(crate) use errors::Layers;
 pub(crate) use front::front;
-pub(crate) use reference::{Reference, Wanted};
-pub(crate) use times::{Effort, Measured, measure};
+pub(crate) use reference::{Reference, Wanted, half};
+pub(crate) use times::{Effort, Measured, Shot, measure};

@@ -11,7 +11,7 @@ use crate::{input, text};
 use serde_json::{Value, json};
 use std::path::Path;
 use vsgl_core::data::SceneData;
-use vsgl_core::render::{View, render};
+use vsgl_core::render::{Observer, View, render};
 use vsgl_core::settings::{Method, Settings};
 
 /// Names of the halves in a sweep's folder.
@@ -19,7 +19,7 @@ const HALVES: [&str; 2] = ["reference-a.exr", "reference-b.exr"];
 /// Name of their mean.
 const WHOLE: &str = "reference.exr";
 
-/// The reference of a sweep.
+/// A reference picture.
 pub(crate) struct Reference {
     /// What is compared.
     pub(crate) layers: Layers,
@@ -29,7 +29,26 @@ pub(crate) struct Reference {
     pub(crate) noise: Value,
 }
 
-/// What is rendered for a reference.
+impl Reference {
+    /// The mean of two independent halves, compared in blocks of these sides.
+    ///
+    /// Its error is distributed as half their difference, which is what separates a half from the mean: the errors of a half
+    /// against the mean are those of the mean against the truth.
+    ///
+    /// # Errors
+    /// None for halves of one size.
+    pub(crate) fn of_halves(halves: &[Picture; 2], sides: &[u32]) -> Result<Self> {
+        let whole = mean(&halves[0], &halves[1]);
+        let layers = Layers::of(&whole)?;
+        Ok(Self {
+            noise: Layers::of(&halves[0])?.errors(&layers, sides)?,
+            pixels: whole.rgb("").unwrap_or_default(),
+            layers,
+        })
+    }
+}
+
+/// What is rendered for the reference of a sweep.
 pub(crate) struct Wanted<'a> {
     /// Scene, lights and view.
     pub(crate) job: &'a Job,
@@ -37,13 +56,12 @@ pub(crate) struct Wanted<'a> {
     pub(crate) spp: u32,
     /// Folder that keeps them.
     pub(crate) folder: &'a Path,
+    /// Sides of the blocks that are compared.
+    pub(crate) sides: &'a [u32],
 }
 
 impl Wanted<'_> {
     /// Renders what the folder does not hold yet.
-    ///
-    /// The error of the mean of two independent halves is distributed as half their difference, which is what separates a
-    /// half from the mean: the errors of a half against the mean are those of the mean against the truth.
     ///
     /// # Errors
     /// What rendering, reading and writing return.
@@ -53,28 +71,22 @@ impl Wanted<'_> {
         scene: &B::Res<SceneData>,
         progress: &Progress,
     ) -> Result<Reference> {
-        let mut halves = Vec::new();
-        for (index, name) in HALVES.iter().enumerate() {
-            let path = self.folder.join(name);
-            let seed = self.job.seed.wrapping_add(1 + index as u64);
+        let half = |index: usize| {
+            let path = self.folder.join(HALVES[index]);
             if !path.exists() {
+                let seed = self.job.seed.wrapping_add(1 + index as u64);
                 self.render(backend, scene, &path, seed, progress)?;
             }
-            halves.push(self.read(&path)?);
-        }
-        let whole = mean(&halves[0], &halves[1]);
+            self.read(&path)
+        };
+        let halves = [half(0)?, half(1)?];
         let path = self.folder.join(WHOLE);
         if !path.exists() {
             let command = format!("the mean of {} and {}", HALVES[0], HALVES[1]);
             let settings = json!({"halves": HALVES});
-            self.write(Pending::create(&path)?, whole.clone(), command, settings)?;
+            self.write(&path, mean(&halves[0], &halves[1]), command, settings)?;
         }
-        let layers = Layers::of(&whole)?;
-        Ok(Reference {
-            noise: Layers::of(&halves[0])?.errors(&layers)?,
-            pixels: whole.rgb("").unwrap_or_default(),
-            layers,
-        })
+        Reference::of_halves(&halves, self.sides)
     }
 
     fn render<B: Host>(
@@ -86,32 +98,17 @@ impl Wanted<'_> {
         progress: &Progress,
     ) -> Result<()> {
         let job = self.job;
-        let file = Pending::create(path)?;
-        let settings = Settings {
-            method: Method::Path,
-            spp: self.spp.div_ceil(2),
-            max_depth: job.settings.max_depth,
-            ..Settings::default()
-        };
-        let plan = job.plan_for(&settings, seed)?;
-        // Paths are spread over the pixel anyway.
-        let view = View { aa: 1, ..job.view };
-        let frame = render(backend, scene, &job.lights, &view, &plan, progress)?;
-        let picture = Picture::from_image(&backend.download(&frame.image)?);
+        let spp = self.spp.div_ceil(2);
+        let picture = half(backend, scene, job, &job.view, (spp, seed), progress)?;
+        let settings = paths(job, spp);
         let mut words = job.words_for(&settings);
         words.extend(["--seed".into(), seed.to_string()]);
         let start = ["vsgl", "render"].map(String::from);
         let command = text::shell(&[&start[..], &words].concat());
-        self.write(file, picture, command, settings_json(&settings))
+        self.write(path, picture, command, settings_json(&settings))
     }
 
-    fn write(
-        &self,
-        file: Pending,
-        picture: Picture,
-        command: String,
-        settings: Value,
-    ) -> Result<()> {
+    fn write(&self, path: &Path, picture: Picture, command: String, settings: Value) -> Result<()> {
         let metadata = Metadata {
             software: output::software(),
             command,
@@ -119,23 +116,50 @@ impl Wanted<'_> {
             settings,
             paths: None,
         };
-        file.write(|file| output::exr::write(file, picture, &metadata))
+        Pending::create(path)?.write(|file| output::exr::write(file, picture, &metadata))
     }
 
     fn read(&self, path: &Path) -> Result<Picture> {
         let picture = input::read(path)?.picture;
-        let (width, height) = self.job.view.pixels();
-        let layers = ["", "direct", "indirect"].map(|layer| picture.rgb(layer));
-        if (picture.width, picture.height) == (width, height) && layers.iter().all(Option::is_some)
+        let same = (picture.width, picture.height) == self.job.view.pixels();
+        if same
+            && ["", "indirect"]
+                .iter()
+                .all(|layer| picture.rgb(layer).is_some())
         {
             return Ok(picture);
         }
-        let problem = format!("is not a reference of {width}x{height} pixels");
-        Err(Failure::input(
-            path,
-            problem,
-            "remove it, and it is made anew",
-        ))
+        let problem = "is not the reference of this sweep";
+        let remedy = "remove it, and it is made anew";
+        Err(Failure::input(path, problem, remedy))
+    }
+}
+
+/// Renders one half of a reference: so many paths through each pixel, with this seed.
+///
+/// # Errors
+/// What rendering returns.
+pub(crate) fn half<B: Host>(
+    backend: &B,
+    scene: &B::Res<SceneData>,
+    job: &Job,
+    view: &View,
+    (spp, seed): (u32, u64),
+    observer: &dyn Observer,
+) -> Result<Picture> {
+    let plan = job.plan_for(&paths(job, spp), seed)?;
+    // Paths are spread over the pixel anyway.
+    let view = View { aa: 1, ..*view };
+    let frame = render(backend, scene, &job.lights, &view, &plan, observer)?;
+    Ok(Picture::from_image(&backend.download(&frame.image)?))
+}
+
+fn paths(job: &Job, spp: u32) -> Settings {
+    Settings {
+        method: Method::Path,
+        spp,
+        max_depth: job.settings.max_depth,
+        ..Settings::default()
     }
 }
 

@@ -4,16 +4,27 @@ use crate::clock;
 use crate::device::Host;
 use crate::exit::Result;
 use crate::interrupt;
-use crate::job::Job;
 use serde_json::{Value, json};
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 use vsgl_core::data::{Image, SceneData};
 use vsgl_core::plan::Plan;
-use vsgl_core::render::{Observer, Phase, render};
+use vsgl_core::render::{Observer, Phase, View, render};
+use vsgl_core::scene::Light;
 
 /// Frames that take longer need no warming up.
 const WARM_UP: Duration = Duration::from_secs(2);
+
+/// A frame that is timed.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Shot<'a> {
+    /// The lights that shine.
+    pub(crate) lights: &'a [Light],
+    /// Camera, size and samples.
+    pub(crate) view: &'a View,
+    /// What runs.
+    pub(crate) plan: &'a Plan,
+}
 
 /// How often a combination is run.
 #[derive(Clone, Copy, Debug)]
@@ -56,19 +67,18 @@ struct Span {
 pub(crate) fn measure<B: Host>(
     backend: &B,
     scene: &B::Res<SceneData>,
-    job: &Job,
-    plan: &Plan,
+    shot: Shot<'_>,
     effort: Effort,
 ) -> Result<Measured> {
     let start = Instant::now();
-    let (mut run, mut image, lights) = once(backend, scene, job, plan)?;
+    let (mut run, mut image, lights) = once(backend, scene, shot)?;
     if run.wall < WARM_UP {
-        (run, image, _) = once(backend, scene, job, plan)?;
+        (run, image, _) = once(backend, scene, shot)?;
     }
     let mut runs = vec![run];
     while runs.len() < effort.runs as usize && start.elapsed() < effort.patience {
         interrupt::check()?;
-        (run, image, _) = once(backend, scene, job, plan)?;
+        (run, image, _) = once(backend, scene, shot)?;
         runs.push(run);
     }
     Ok(Measured {
@@ -82,14 +92,14 @@ pub(crate) fn measure<B: Host>(
 fn once<B: Host>(
     backend: &B,
     scene: &B::Res<SceneData>,
-    job: &Job,
-    plan: &Plan,
+    shot: Shot<'_>,
 ) -> Result<(Run, Image, Option<u32>)> {
     // Forgets the times of what was before.
     backend.times()?;
     let watch = Watch::default();
     let (start, cpu) = (Instant::now(), clock::processor());
-    let frame = render(backend, scene, &job.lights, &job.view, plan, &watch)?;
+    let Shot { lights, view, plan } = shot;
+    let frame = render(backend, scene, lights, view, plan, &watch)?;
     backend.finish()?;
     let wall = start.elapsed();
     let cpu = since(cpu);
@@ -151,12 +161,26 @@ impl Measured {
         self.runs.len()
     }
 
-    /// Seconds of a frame by the wall clock.
+    /// Seconds of a frame by the wall clock, the median over the runs.
+    pub(crate) fn seconds(&self) -> f64 {
+        median(self.runs.iter().map(|r| r.wall))
+    }
+
+    /// Seconds of the phases that are asked for by the wall clock, the median over the runs.
+    pub(crate) fn seconds_of(&self, wanted: impl Fn(Phase) -> bool) -> f64 {
+        let sum = |run: &Run| {
+            let spans = run.phases.iter().filter(|s| wanted(s.phase));
+            spans.map(|s| s.wall).sum()
+        };
+        median(self.runs.iter().map(sum))
+    }
+
+    /// Seconds of a frame by the wall clock: median, least and most.
     pub(crate) fn wall(&self) -> Value {
         spread(self.runs.iter().map(|r| r.wall))
     }
 
-    /// Seconds of a frame by the processor's clock; null where nobody tells.
+    /// The same by the processor's clock; null where nobody tells.
     pub(crate) fn cpu(&self) -> Value {
         let times: Option<Vec<_>> = self.runs.iter().map(|r| r.cpu).collect();
         times.map_or(Value::Null, |times| spread(times.into_iter()))

@@ -6,6 +6,7 @@ mod report;
 use super::dump;
 use super::sheet::{Sheet, Written};
 use crate::args::{OutputArgs, RenderArgs, When};
+use crate::choose::{self, Choice, Goal, Open};
 use crate::device::{self, Chosen, Host};
 use crate::exit::{Failure, Result};
 use crate::job::Job;
@@ -15,7 +16,7 @@ use crate::{interrupt, text};
 use report::{Report, Seconds};
 use serde_json::Value;
 use std::time::{Duration, Instant};
-use vsgl_core::data::Image;
+use vsgl_core::data::{Image, SceneData};
 use vsgl_core::render::{Frame, Phase, render};
 
 /// Renders and writes.
@@ -30,6 +31,9 @@ pub(super) fn run(args: &RenderArgs) -> Result<()> {
     let mut job = Job::new(&args.scene, &args.view, &args.settings)?;
     job.check_drawable()?;
     paths::check(&job, args)?;
+    if Goal::of(&args.goal).is_some() {
+        choose::check(&job)?;
+    }
     warn(out, &job.warnings);
     // Before there are temporary files to remove.
     interrupt::listen()?;
@@ -57,13 +61,14 @@ fn work<B: Host>(
     let out = &args.output;
     let drawn = match job.plan.path {
         Some(_) => paths::draw(backend, job, args, &files)?,
-        None => draw(backend, job, out)?,
+        None => draw(backend, job, args)?,
     };
     let Drawn {
         image,
         senders,
         mut seconds,
         paths,
+        choice,
     } = drawn;
     let notes = notes(&image, dump.is_some() && senders.rsm.is_none());
     warn(out, &notes);
@@ -107,6 +112,7 @@ fn work<B: Host>(
         adapter: backend.adapter(),
         why,
         clusters,
+        choice,
         seconds,
         written,
         notes,
@@ -126,16 +132,19 @@ struct Drawn<B: Host> {
     senders: dump::Senders<B>,
     seconds: Seconds,
     paths: Option<paths::Traced>,
+    choice: Option<Choice>,
 }
 
 /// Renders. The scene and what the camera sees are let go as soon as they are not needed any more: a large picture
 /// needs the room.
-fn draw<B: Host>(backend: &B, job: &mut Job, out: &OutputArgs) -> Result<Drawn<B>> {
+fn draw<B: Host>(backend: &B, job: &mut Job, args: &RenderArgs) -> Result<Drawn<B>> {
+    let out = &args.output;
     let start = Instant::now();
     let scene = backend.upload(job.prepare()?)?;
     let list = vec![("scene".to_owned(), start.elapsed().as_secs_f64())];
+    let choice = chosen(backend, &scene, job, args)?;
     let start = Instant::now();
-    let progress = Progress::new(if out.quiet { When::Never } else { out.progress });
+    let progress = progress(out);
     let frame = render(
         backend,
         &scene,
@@ -167,6 +176,7 @@ fn draw<B: Host>(backend: &B, job: &mut Job, out: &OutputArgs) -> Result<Drawn<B
         },
         seconds: seconds(backend, list, called, wall)?,
         paths: None,
+        choice,
     })
 }
 
@@ -183,6 +193,36 @@ fn seconds<B: Host>(
         list.push((phase.to_string(), time.as_secs_f64()));
     }
     Ok(Seconds { list, wall, clock })
+}
+
+fn progress(out: &OutputArgs) -> Progress {
+    Progress::new(if out.quiet { When::Never } else { out.progress })
+}
+
+/// Settings by measurement, if the user wants that.
+fn chosen<B: Host>(
+    backend: &B,
+    scene: &B::Res<SceneData>,
+    job: &mut Job,
+    args: &RenderArgs,
+) -> Result<Option<Choice>> {
+    let Some(goal) = Goal::of(&args.goal) else {
+        return Ok(None);
+    };
+    let open = |key| !args.settings.chooses(&job.settings, key);
+    let open = Open {
+        lights: open("lights"),
+        interleave: open("interleave"),
+        occlusion: open("occlusion"),
+    };
+    let progress = progress(&args.output);
+    let choice = choose::choose(backend, scene, job, goal, &open, &progress);
+    progress.finish();
+    let choice = choice?;
+    warn(&args.output, choice.missed().as_slice());
+    // The times of what was tried are not those of the picture.
+    backend.times()?;
+    Ok(Some(choice))
 }
 
 fn warn(out: &OutputArgs, warnings: &[String]) {

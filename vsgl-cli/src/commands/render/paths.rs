@@ -145,5 +145,6 @@ pub(super) fn draw<B: Host>(
             about: course.about().clone(),
             sums: course.sums().cloned(),
         }),
+        choice: None,
     })
 }

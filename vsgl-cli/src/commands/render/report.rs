@@ -2,6 +2,7 @@
 
 use super::command;
 use crate::args::{OutputArgs, PartArgs};
+use crate::choose::Choice;
 use crate::commands::sheet::Written;
 use crate::commands::{SCHEMA_VERSION, facts};
 use crate::job::Job;
@@ -31,6 +32,8 @@ pub(super) struct Report<'a> {
     /// Why the CPU was taken, if it was not asked for.
     pub(super) why: Option<String>,
     pub(super) clusters: Option<u32>,
+    /// How settings were chosen, if they were.
+    pub(super) choice: Option<Choice>,
     pub(super) seconds: Seconds,
     pub(super) written: Vec<Written>,
     pub(super) notes: Vec<String>,
@@ -65,6 +68,9 @@ impl Report<'_> {
         out += &facts::scene_text(self.job);
         if self.out.verbose {
             out += &facts::settings_text(self.job);
+        }
+        if let Some(choice) = &self.choice {
+            out += &choice.text(&self.job.settings);
         }
         out += &facts::plan_text(self.job);
         out += &format!("phases    on {}, {}", self.backend, self.device);
@@ -113,6 +119,7 @@ impl Report<'_> {
         document["virtual_lights"] = self.clusters.into();
         document["width"] = width.into();
         document["height"] = height.into();
+        document["choice"] = self.choice.as_ref().map(Choice::json).into();
         document["seed"] = self.job.seed.into();
         document["samples"] = self.samples.as_ref().map(Ranges::json).into();
         document["phases"] = self.seconds.list.iter().map(phase).collect();

@@ -123,13 +123,7 @@ impl Combination {
 
 /// The usual axes, less the settings that somebody chose.
 fn usual(base: &Settings, typed: &SettingsArgs, quick: bool) -> Vec<(String, String)> {
-    let chosen = differing(base);
-    let fixed = |key: &str| {
-        typed.flags().any(|(k, _)| k == key)
-            || typed.set.iter().any(|(k, _)| k == key)
-            || chosen.iter().any(|(k, _)| *k == key)
-    };
-    let axes = USUAL.iter().filter(|(key, _)| !fixed(key));
+    let axes = USUAL.iter().filter(|(key, _)| !typed.chooses(base, key));
     axes.map(|(key, values)| ((*key).to_owned(), values[usize::from(quick)].to_owned()))
         .collect()
 }

@@ -9,7 +9,7 @@ use crate::args::{BackendName, Size, SweepArgs};
 use crate::device::{self, Chosen, Host};
 use crate::exit::{Failure, Result};
 use crate::job::{Defaults, Job};
-use crate::measure::{Effort, Layers, Measured, Reference, Wanted, measure};
+use crate::measure::{Effort, Layers, Measured, Reference, Shot, Wanted, measure};
 use crate::output::exposure::automatic;
 use crate::output::tonemap::Tonemap;
 use crate::output::{self, Metadata, Pending};
@@ -29,6 +29,8 @@ const QUICK: Size = Size {
     width: 320,
     height: 180,
 };
+/// Sides of the blocks that are compared.
+const SIDES: [u32; 2] = [1, 8];
 /// Folder of the pictures in the folder of the sweep.
 const PICTURES: &str = "pictures";
 
@@ -180,7 +182,12 @@ impl<'a> Sweep<'a> {
                 runs: self.depth.runs,
                 patience: Duration::from_secs(self.depth.patience),
             };
-            let measured = match measure(backend, &scene, &self.job, &combination.plan, effort) {
+            let shot = Shot {
+                lights: &self.job.lights,
+                view: &self.job.view,
+                plan: &combination.plan,
+            };
+            let measured = match measure(backend, &scene, shot, effort) {
                 Ok(measured) => measured,
                 Err(Failure::Usage(why)) => {
                     steps.passed(&format!("{label}: left out, {why}"));
@@ -204,6 +211,7 @@ impl<'a> Sweep<'a> {
             job: &self.job,
             spp: self.depth.spp,
             folder: &self.args.sweep.output,
+            sides: &SIDES,
         };
         let progress = Progress::new(self.args.sweep.progress);
         let reference = wanted.get(backend, scene, &progress);
@@ -237,7 +245,7 @@ impl<'a> Sweep<'a> {
         reference: &Reference,
     ) -> Result<Value> {
         let picture = Picture::from_image(&measured.image);
-        let errors = Layers::of(&picture)?.errors(&reference.layers)?;
+        let errors = Layers::of(&picture)?.errors(&reference.layers, &SIDES)?;
         let mut words = ["vsgl", "render"].map(String::from).to_vec();
         words.extend(self.job.words_for(&combination.settings));
         words.extend(["--backend".into(), backend.into()]);
