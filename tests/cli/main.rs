@@ -1,6 +1,7 @@
 //! The program from outside: what it prints and writes, and how it ends, for good input and for bad.
 
 mod adapters;
+mod choose;
 mod compare;
 mod errors;
 mod help;

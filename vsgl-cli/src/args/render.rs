@@ -103,12 +103,12 @@ pub struct GoalArgs {
     /// Small pictures and paths of light tell in some seconds what settings cost and err in this scene on this machine; a few
     /// frames at the full size correct that. The report says what was predicted and what was measured. The time is that of the
     /// phases, without reading the scene and writing files.
-    #[arg(long, value_name = "TIME", value_parser = super::words::budget, conflicts_with = "target_error")]
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = super::words::budget, conflicts_with = "target_error")]
     pub budget: Option<f64>,
     /// Choose them for the fastest frame that has this error, such as 5%
     ///
     /// The error is the mean absolute percentage error of the indirect light in blocks of 8 by 8 pixels against paths of light.
-    #[arg(long, value_name = "PERCENT", value_parser = super::words::percent)]
+    #[arg(long, value_name = "PERCENT", allow_hyphen_values = true, value_parser = super::words::percent)]
     pub target_error: Option<f64>,
 }
 
