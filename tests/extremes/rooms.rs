@@ -81,6 +81,7 @@ pub(crate) fn common() -> Vec<(String, Settings)> {
         "occlusion=ism map_points=512",
         "occlusion=ism-tessellated map_size=16",
         "method=path spp=2 max_depth=5",
+        "method=path spp=1 light_sampling=uniform",
         "clustering=filtered",
         "clustering=whole",
         "clustering=filtered pdf=uniform",

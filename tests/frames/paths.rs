@@ -1,6 +1,7 @@
 //! Paths of light on both backends.
 
 use crate::{agree, kinds_of_lights, shining};
+use vsgl_core::scene::Light;
 use vsgl_tests::gpu::Tier;
 use vsgl_tests::render::Shot;
 use vsgl_tests::surfaces::everything;
@@ -41,6 +42,22 @@ fn paths_among_everything_that_a_surface_can_be() {
     let plan = shot.plan().path.expect("paths");
     assert!(plan.glossy && plan.emitters && plan.surface.masks && plan.surface.anisotropy);
     all_tiers("paths among everything", &shot);
+}
+
+#[test]
+fn paths_to_lights_drawn_evenly_and_by_power() {
+    let mut shot = shining("").size(48, 27);
+    let mut lights: Vec<_> = kinds_of_lights().into_iter().flat_map(|(_, l)| l).collect();
+    for (index, light) in lights.iter_mut().enumerate() {
+        if let Light::Point(point) = light {
+            point.intensity = point.intensity.map(|i| i * index as f32);
+        }
+    }
+    shot.lights = lights;
+    for sampling in ["power", "uniform"] {
+        let words = format!("method=path spp=3 light_sampling={sampling}");
+        all_tiers(&format!("paths by {sampling}"), &shot.clone().with(&words));
+    }
 }
 
 #[test]

@@ -213,7 +213,7 @@ fn every_function_has_a_twin_and_a_test() {
 
 /// Plain functions of whole records, such as a map, a camera or the sums of a cluster, and of indices: every pixel, cluster
 /// and round of the phases compares them.
-const COMPARED_AS_PHASES: [&str; 55] = [
+const COMPARED_AS_PHASES: [&str; 56] = [
     "bsdf_density",
     "bsdf_evaluate",
     "bsdf_is_black",
@@ -225,6 +225,7 @@ const COMPARED_AS_PHASES: [&str; 55] = [
     "cluster_stretched",
     "direct_incoming",
     "direct_way",
+    "draw_chance",
     "emit_point",
     "emit_texel",
     "fill_before",

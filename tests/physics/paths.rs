@@ -7,11 +7,16 @@
 use super::emitters::{ALBEDO as FLOOR, irradiance, room};
 use super::furnace::{ALBEDO, RADIUS, sphere};
 use std::f64::consts::PI;
-use vsgl_core::data::Image;
-use vsgl_core::glam::{DVec3, Vec2};
+use vsgl_core::backend::Backend;
+use vsgl_core::data::{Image, SceneData};
+use vsgl_core::glam::{DVec3, Vec2, Vec3};
+use vsgl_core::math::sobol::hash;
 use vsgl_core::metrics::luminance;
 use vsgl_core::plan::Plan;
-use vsgl_core::scene::{Filter, Material, Texture, TextureRef};
+use vsgl_core::scene::{Filter, Light, Material, PointLight, Texture, TextureRef};
+use vsgl_core::settings::LightSampling;
+use vsgl_core::trace::{Paths, pieces};
+use vsgl_cpu::CpuBackend;
 use vsgl_tests::chance::{Estimate, pictures};
 use vsgl_tests::render::Shot;
 
@@ -129,6 +134,98 @@ fn both_ways_to_surfaces_that_shine_bring_the_same() {
         let error = both.error.hypot(one.error);
         assert!((both.mean - one.mean).abs() < ERRORS * error, "{name}");
         assert!(error < 0.02 * one.mean, "{name}: too much noise to tell");
+    }
+}
+
+/// Lights of very different power, one of them dark: however they are drawn, the mean is the sum of what each of them brings.
+#[test]
+fn drawn_lights_bring_what_all_of_them_bring() {
+    let point = |x: f32, intensity: f32| {
+        Light::Point(PointLight {
+            position: Vec3::new(x, 0.6, 0.1),
+            intensity: [intensity; 3],
+            range: f32::INFINITY,
+        })
+    };
+    let mut shot = Shot::sample("cornell");
+    let own = shot.lights[0];
+    shot.lights = vec![own, point(0.3, 0.02), point(-0.3, 3.0), point(0.0, 0.0)];
+    let value = |image: &Image| mean(&image.direct) + mean(&image.indirect());
+    let exact: Vec<Estimate> = shot.lights[..3]
+        .iter()
+        .map(|&light| {
+            let mut alone = shot.clone().with("method=path spp=32");
+            alone.lights = vec![light];
+            estimate(&alone, &alone.plan(), value)
+        })
+        .collect();
+    let sum: f64 = exact.iter().map(|e| e.mean).sum();
+    let errors = exact.iter().map(|e| e.error).fold(0.0, f64::hypot);
+    for sampling in LightSampling::WORDS {
+        let words = format!("method=path spp=64 light_sampling={sampling}");
+        let shot = shot.clone().with(&words);
+        let found = estimate(&shot, &shot.plan(), value);
+        println!("{sampling}: {found:?} for {sum} ± {errors}");
+        let error = found.error.hypot(errors);
+        assert!((found.mean - sum).abs() < ERRORS * error, "{sampling}");
+        assert!(error < 0.03 * sum, "{sampling}: too much noise to tell");
+    }
+}
+
+/// Lamps of very different power and size, beside each other.
+#[test]
+fn drawn_lamps_bring_what_all_of_them_bring() {
+    let mut shot = Shot::sample("cornell").with("method=path spp=64 max_depth=3");
+    for (material, emission) in [(0, 30.0), (1, 0.02), (2, 0.5)] {
+        shot.scene.materials[material].emission = [emission, 0.5 * emission, 0.1];
+    }
+    shot.lights.clear();
+    let plan = shot.plan();
+    let mut blind = plan.clone();
+    blind.path.as_mut().expect("paths").emitters = false;
+    let value = |image: &Image| mean(&image.direct) + mean(&image.indirect());
+    let exact = estimate(&shot, &blind, value);
+    for sampling in LightSampling::ALL {
+        let mut plan = plan.clone();
+        plan.path.as_mut().expect("paths").light_sampling = *sampling;
+        let found = estimate(&shot, &plan, value);
+        println!("{sampling}: {found:?}, by directions alone {exact:?}");
+        let error = found.error.hypot(exact.error);
+        assert!((found.mean - exact.mean).abs() < ERRORS * error);
+        assert!(error < 0.02 * exact.mean, "too much noise to tell");
+    }
+}
+
+/// Any split into parts has the bits of the whole, whichever order they are put together in.
+#[test]
+fn parts_of_a_picture_add_up_to_its_bits() {
+    let shot = Shot::sample("cornell").with("method=path spp=44");
+    let whole = shot.image();
+    let plan = shot.plan();
+    let backend = CpuBackend::new(1).expect("threads");
+    let scene = backend.upload(SceneData::new(&shot.scene)).expect("room");
+    let paths = Paths {
+        backend: &backend,
+        scene: &scene,
+        lights: &shot.lights,
+        view: &shot.view,
+        plan: &plan,
+    };
+    let layers = paths.layers(&()).expect("a view");
+    for seed in 0..4 {
+        let mut parts = vec![paths.sums(); 3];
+        let mut pieces: Vec<_> = pieces(0..44, 44).expect("whole").collect();
+        pieces.sort_by_key(|piece| hash(piece.start ^ hash(seed)));
+        for piece in pieces {
+            let part = hash(piece.start + 100 * seed) as usize % parts.len();
+            paths.add(piece, &mut parts[part], &()).expect("a backend");
+        }
+        let mut all = paths.sums();
+        for part in &parts {
+            all.merge(part).expect("of one size");
+        }
+        assert_eq!(all.samples(), 44);
+        assert_eq!(all.mean(layers.image.clone()), whole, "{seed}");
     }
 }
 

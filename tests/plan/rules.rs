@@ -4,7 +4,7 @@ use vsgl_core::data::map_kind;
 use vsgl_core::glam::Vec3;
 use vsgl_core::plan::{Plan, SurfacePlan};
 use vsgl_core::scene::{DirectionalLight, Light, Material, PointLight, SpotLight, TextureRef};
-use vsgl_core::settings::{Emission, OcclusionMethod, Preset, Primary, Settings};
+use vsgl_core::settings::{Emission, LightSampling, OcclusionMethod, Preset, Primary, Settings};
 use vsgl_tests::render::Shot;
 
 fn shot(settings: &str) -> Shot {
@@ -525,6 +525,52 @@ fn paths_need_no_lights_made_of_texels() {
         Some((false, "paths of depth 1 end at the first surface"))
     );
     assert!(shot("").plan().path.is_none());
+}
+
+#[test]
+fn lights_are_drawn_by_power_where_there_are_several() {
+    let one = shot("method=path");
+    let topic = "lights by power";
+    assert_eq!(
+        reason(&one.plan(), topic),
+        Some((false, "there is one light alone"))
+    );
+    let mut two = one.clone();
+    two.lights.push(two.lights[0]);
+    assert_eq!(reason(&two.plan(), topic).map(|r| r.0), Some(true));
+    let even = two.with("light_sampling=uniform").plan();
+    assert_eq!(
+        reason(&even, topic),
+        Some((false, "each is drawn with the same chance, as asked"))
+    );
+    let path = even.path.expect("paths");
+    assert_eq!(path.light_sampling, LightSampling::Uniform);
+    let mut dark = one;
+    dark.lights.clear();
+    assert_eq!(
+        reason(&dark.plan(), topic),
+        Some((false, "there is no light"))
+    );
+}
+
+#[test]
+fn what_paths_do_not_need_is_said() {
+    for (words, topic) in [
+        ("interleave=4", "interleaved shading"),
+        ("occlusion=ism", "shadow maps"),
+        ("occlusion=sampled", "sampled occlusion"),
+        ("occlusion=none", "light through walls"),
+        ("primary=raster", "raster"),
+    ] {
+        let plain = shot("method=path").plan();
+        assert_eq!(reason(&plain, topic), None, "{topic}");
+        let plan = shot(&format!("method=path {words}")).plan();
+        let (runs, why) = reason(&plan, topic).expect(topic);
+        assert!(!runs && why.contains("method `path`"), "{topic}: {why}");
+        // Nothing else is different.
+        assert_eq!(plan.path, plain.path, "{topic}");
+        assert_eq!(plan.gbuffer, plain.gbuffer, "{topic}");
+    }
 }
 
 #[test]

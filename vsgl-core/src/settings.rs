@@ -49,6 +49,8 @@ pub struct Settings {
     /// Longest paths, with the method `path`: 1 light that surfaces send by themselves, 2 direct light, 3 one bounce, up to
     /// [`Settings::DEPTH_MAX`].
     pub max_depth: u32,
+    /// Which of the lights, and of the surfaces that shine, a path asks for their light, with the method `path`.
+    pub light_sampling: LightSampling,
 }
 
 impl Default for Settings {
@@ -75,6 +77,7 @@ impl Default for Settings {
             primary: Primary::Rays,
             spp: 64,
             max_depth: 3,
+            light_sampling: LightSampling::Power,
         }
     }
 }
@@ -258,6 +261,15 @@ impl OcclusionMethod {
 }
 
 choice! {
+    /// Which of the lights, and of the surfaces that shine, a path asks for their light.
+    pub enum LightSampling {
+        /// By the luminance of the flux that they send, and a tenth of the draws evenly.
+        Power = "power",
+        /// Each with the same chance.
+        Uniform = "uniform",
+    }
+}
+choice! {
     /// What decides which triangle the camera sees.
     pub enum Primary {
         /// A ray through each sample: the definition, on every backend.
@@ -357,6 +369,7 @@ impl Settings {
         "primary",
         "spp",
         "max_depth",
+        "light_sampling",
     ];
 
     /// All keys with their values, as [`Settings::set`] takes them.
@@ -383,6 +396,7 @@ impl Settings {
             self.primary.to_string(),
             self.spp.to_string(),
             self.max_depth.to_string(),
+            self.light_sampling.to_string(),
         ];
         Self::KEYS.iter().copied().zip(values).collect()
     }
@@ -427,6 +441,10 @@ impl Settings {
             "primary" => self.primary = word(key, value, Primary::from_word, Primary::WORDS)?,
             "spp" => self.spp = integer(key, value, 1, Self::SPP_MAX)?,
             "max_depth" => self.max_depth = integer(key, value, 1, Self::DEPTH_MAX)?,
+            "light_sampling" => {
+                self.light_sampling =
+                    word(key, value, LightSampling::from_word, LightSampling::WORDS)?
+            }
             _ => {
                 let remedy = format!("keys are {}", Self::KEYS.join(", "));
                 return Err(Error::setting(key, "no such key", remedy));

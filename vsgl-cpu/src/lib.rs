@@ -32,9 +32,8 @@ mod phase;
 use std::ops::Range;
 use std::sync::Arc;
 use vsgl_core::backend::{Backend, PdfInputs, ShadeInputs};
-use vsgl_core::data::{
-    Columns, GBuffer, Image, LightRecord, Occlusion, Pdf, Radiance, Rsm, SceneData, Vsgls,
-};
+use vsgl_core::data::{Columns, GBuffer, Image, Occlusion, Pdf, Radiance, Rsm, SceneData, Vsgls};
+use vsgl_core::phase::draw;
 use vsgl_core::plan::{
     ClusterPlan, GBufferPlan, OcclusionPlan, PathPlan, PdfPlan, ReconstructPlan, RsmPlan, ShadePlan,
 };
@@ -179,7 +178,7 @@ impl Backend for CpuBackend {
         samples: Range<u32>,
         observer: &dyn Observer,
     ) -> Result<Arc<Radiance>> {
-        let lights: Vec<LightRecord> = lights.iter().map(LightRecord::from).collect();
+        let lights = draw::lights(lights, scene.bounds(), plan.light_sampling);
         self.pool
             .install(|| phase::path::run(scene, &lights, view, plan, samples, observer))
             .map(Arc::new)

@@ -38,8 +38,8 @@ pub(crate) fn check(file: &str, name: &str, size: usize, fields: &[(&str, usize)
 fn records_of_the_scene_and_of_lights() {
     use crate::params::{TexelLayout, View};
     use vsgl_core::data::{
-        DiffuseVsgl, EmitterRecord, LightRecord, MapRecord, MaterialRecord, SpecularVsgl,
-        TextureRecord,
+        DiffuseVsgl, EmitterRecord, LampRecord, LightRecord, MapRecord, MaterialRecord,
+        SpecularVsgl, TextureRecord,
     };
     use vsgl_core::geom::BvhNode;
 
@@ -160,6 +160,16 @@ fn records_of_the_scene_and_of_lights() {
         }
     );
     twins!(
+        "data/emitters",
+        "LampRecord",
+        LampRecord {
+            triangle,
+            by_power,
+            evenly,
+            padding
+        }
+    );
+    twins!(
         "data/lights",
         "LightRecord",
         LightRecord {
@@ -170,6 +180,7 @@ fn records_of_the_scene_and_of_lights() {
             intensity,
             inverse_range2,
             parallel,
+            passed,
             padding,
         }
     );

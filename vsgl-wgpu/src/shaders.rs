@@ -78,6 +78,7 @@ pub const MODULES: &[(&str, &str)] = modules![
     "phase/cluster",
     "phase/color",
     "phase/direct",
+    "phase/draw",
     "phase/emit",
     "phase/facing",
     "phase/fill",
@@ -177,7 +178,7 @@ const fn words<T>() -> u32 {
 fn header() -> String {
     use vsgl_core::data::{self, map_kind};
     use vsgl_core::phase::{
-        bsdf, cluster, direct, facing, fill, filtered_box, footprint, importance, interleave,
+        bsdf, cluster, direct, draw, facing, fill, filtered_box, footprint, importance, interleave,
         nearest, normal_map, occlusion, partition, path, pdf, reconstruct, rsm, sampled, shade,
         splat, surface, texture, whole,
     };
@@ -201,6 +202,7 @@ fn header() -> String {
         ("BOX_LEAST", filtered_box::LEAST),
         ("NEAREST_FAR", nearest::FAR),
         ("CHANCE_MIN", bsdf::CHANCE_MIN),
+        ("DRAW_PARTS", draw::PARTS as f32),
         ("GO_ON_LEAST", path::GO_ON[0]),
         ("GO_ON_MOST", path::GO_ON[1]),
         ("GRAZING_MIN", footprint::GRAZING_MIN),

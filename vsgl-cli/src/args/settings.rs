@@ -4,8 +4,8 @@ use clap::Args;
 use clap::builder::PossibleValuesParser;
 use std::path::PathBuf;
 use vsgl_core::settings::{
-    Clustering, DiffuseForm, Emission, GlossyForm, Method, OcclusionMethod, PdfMethod, Preset,
-    Primary, Settings,
+    Clustering, DiffuseForm, Emission, GlossyForm, LightSampling, Method, OcclusionMethod,
+    PdfMethod, Preset, Primary, Settings,
 };
 
 /// Preset, file, keys and flags; each overrides those before it.
@@ -65,11 +65,14 @@ pub struct SettingsArgs {
     /// [default: 3]
     #[arg(long, value_name = "N", allow_hyphen_values = true)]
     pub max_depth: Option<String>,
+    /// Which lights paths ask, with --method path: by the power that they send, or each with the same chance [default: power]
+    #[arg(long, value_parser = PossibleValuesParser::new(LightSampling::WORDS))]
+    pub light_sampling: Option<String>,
 }
 
 impl SettingsArgs {
     /// Keys of core's settings that have a flag of the same name.
-    pub const FLAGS: [&'static str; 14] = [
+    pub const FLAGS: [&'static str; 15] = [
         "method",
         "lights",
         "rsm",
@@ -84,6 +87,7 @@ impl SettingsArgs {
         "primary",
         "spp",
         "max_depth",
+        "light_sampling",
     ];
 
     /// Whether somebody chose the value of this key: by a flag, by `--set`, or by a preset or a file that differ from the usual.
@@ -113,6 +117,7 @@ impl SettingsArgs {
             &self.primary,
             &self.spp,
             &self.max_depth,
+            &self.light_sampling,
         ];
         let pairs = Self::FLAGS.into_iter().zip(values);
         pairs.filter_map(|(key, value)| Some((key, value.as_deref()?)))

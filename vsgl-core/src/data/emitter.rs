@@ -20,6 +20,24 @@ pub struct EmitterRecord {
     pub padding: u32,
 }
 
+/// A triangle that shines, ready to be drawn at random; see `phase/draw.rs`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct LampRecord {
+    /// Id of the triangle.
+    pub triangle: u32,
+    /// Share of this one and of all before it by the power that they send, in 2⁻²⁴.
+    pub by_power: u32,
+    /// The same where all have the same share.
+    pub evenly: u32,
+    /// Zero.
+    pub padding: u32,
+}
+
+impl Element for LampRecord {
+    const SCALAR: Scalar = Scalar::U32;
+}
+
 impl Element for EmitterRecord {
     const SCALAR: Scalar = Scalar::U32;
 }

@@ -21,8 +21,10 @@ pub struct LightRecord {
     pub inverse_range2: f32,
     /// 1: the light is parallel and comes from outside the scene. 0: it comes from `position`.
     pub parallel: u32,
+    /// For lights that are drawn at random: share of this one and of all before it, in 2⁻²⁴; see `phase/draw.rs`. Else zero.
+    pub passed: u32,
     /// Zero.
-    pub padding: [u32; 3],
+    pub padding: [u32; 2],
 }
 
 /// The cosines of [`LightRecord`] and [`super::MapRecord`] that let the falloff be 1 in all directions.

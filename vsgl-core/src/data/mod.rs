@@ -16,7 +16,7 @@ mod scene_data;
 mod vsgls;
 
 pub use columns::{Column, Columns, Element, Scalar};
-pub use emitter::EmitterRecord;
+pub use emitter::{EmitterRecord, LampRecord};
 pub use gbuffer::GBuffer;
 pub use image::Image;
 pub(crate) use light::ALL_AROUND;

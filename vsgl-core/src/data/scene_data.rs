@@ -1,7 +1,7 @@
 //! The scene as the phases read it.
 
 use super::columns::{Columns, Element, Scalar, columns};
-use super::emitter::EmitterRecord;
+use super::emitter::{EmitterRecord, LampRecord};
 use crate::error::{Error, Result};
 use crate::geom::{self, BvhNode};
 use glam::Vec3;
@@ -59,6 +59,8 @@ columns! {
         srgb: f32,
         /// Points of the surfaces that shine. Empty where none does.
         emitter: EmitterRecord,
+        /// The triangles that shine, in the order of their ids, without those that are dark. Empty where none does.
+        lamp: LampRecord,
     }
 }
 

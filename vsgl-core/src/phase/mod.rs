@@ -8,6 +8,7 @@ pub mod camera_map;
 pub mod cluster;
 pub mod color;
 pub mod direct;
+pub mod draw;
 pub mod emit;
 pub mod facing;
 pub mod fill;

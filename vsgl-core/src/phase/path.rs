@@ -11,6 +11,7 @@
 
 use super::bsdf::Bsdf;
 use super::direct;
+use super::draw;
 use super::facing::{geometric_normal, lift};
 use super::footprint::Place;
 use super::mask::{any_hit, closest_hit, covers};
@@ -46,7 +47,7 @@ pub struct Light {
 pub struct World<'a> {
     /// The scene.
     pub scene: &'a SceneData,
-    /// Its lights.
+    /// Its lights, with the shares that they are drawn by; see [`draw::lights`].
     pub lights: &'a [LightRecord],
     /// What is looked for.
     pub plan: &'a PathPlan,
@@ -160,17 +161,22 @@ impl World<'_> {
         }
     }
 
+    /// Share of a lamp and all before it.
+    fn lamp_passed(&self, index: usize) -> u32 {
+        draw::lamp_passed(&self.scene.lamp[index], self.plan.light_sampling)
+    }
+
     /// Chance, per area of a triangle \[1/m²\], that the point drawn from the surfaces that shine lies there; 0 where it never does.
     fn emitter_density(&self, triangle: u32, area: f32) -> f32 {
-        let emitters = &self.scene.emitter;
-        if !self.plan.emitters || emitters.is_empty() {
+        let lamps = &self.scene.lamp;
+        if !self.plan.emitters {
             return 0.0;
         }
-        // Points lie in the order of triangles.
-        let first = emitters.partition_point(|e| e.triangle < triangle);
-        let end = emitters.partition_point(|e| e.triangle <= triangle);
-        let share = (end - first) as f32 / emitters.len() as f32;
-        share / area.max(f32::MIN_POSITIVE)
+        let index = lamps.partition_point(|lamp| lamp.triangle < triangle);
+        if index == lamps.len() || lamps[index].triangle != triangle {
+            return 0.0;
+        }
+        draw::chance(|i| self.lamp_passed(i), index) / area.max(f32::MIN_POSITIVE)
     }
 }
 
@@ -260,7 +266,7 @@ impl Walk {
         let towards = numbers.next();
         let [roulette, emitter] = numbers.next();
         self.connect_light(world, depth, met, which);
-        if world.plan.emitters && !world.scene.emitter.is_empty() {
+        if world.plan.emitters {
             self.connect_emitter(world, depth, met, emitter, on_emitter);
         }
         // Beyond the last surface there is only what shines.
@@ -292,15 +298,15 @@ impl Walk {
         Some(Ray::new(met.origin, direction))
     }
 
-    /// Light of one of the lights, drawn evenly.
+    /// Light of one of the lights.
     fn connect_light(&mut self, world: &World<'_>, depth: u32, met: &Met, which: f32) {
-        let count = world.lights.len();
-        if count == 0 {
+        let passed = |i: usize| world.lights[i].passed;
+        let Some((index, chance)) = draw::draw(world.lights.len(), passed, which) else {
             return;
-        }
-        let light = &world.lights[((which * count as f32) as usize).min(count - 1)];
+        };
+        let light = &world.lights[index];
         let incoming = direct::incoming(light, met.surface.position);
-        let strength = incoming.strength * count as f32;
+        let strength = incoming.strength / chance;
         let reflected = met.reflected(incoming.axis, strength);
         if reflected == Vec3::ZERO {
             return;
@@ -322,8 +328,11 @@ impl Walk {
         [u, v]: [f32; 2],
     ) {
         let scene = world.scene;
-        let count = scene.emitter.len();
-        let record = &scene.emitter[((which * count as f32) as usize).min(count - 1)];
+        let passed = |i: usize| world.lamp_passed(i);
+        let Some((index, chance)) = draw::draw(scene.lamp.len(), passed, which) else {
+            return;
+        };
+        let record = &scene.lamp[index];
         let root = u.sqrt();
         let hit = Hit {
             triangle: record.triangle,
@@ -341,7 +350,8 @@ impl Walk {
         let area = 0.5 * twice.dot(twice).sqrt();
         let side = normalize(twice);
         let cosine = side.dot(direction).abs();
-        let density = world.emitter_density(record.triangle, area) * (distance2 / cosine.max(1e-9));
+        let drawn = chance / area.max(f32::MIN_POSITIVE);
+        let density = drawn * (distance2 / cosine.max(1e-9));
         let masks = world.plan.surface.masks;
         if cosine <= 0.0
             || density <= 0.0

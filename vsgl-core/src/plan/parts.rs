@@ -3,8 +3,8 @@
 use crate::phase::reconstruct::FILTER;
 use crate::scene::EMITTER_POINTS;
 use crate::settings::{
-    Clustering, DiffuseForm, Emission, GlossyForm, OcclusionMethod, PdfMethod, Primary,
-    SharpnessFit, Variance,
+    Clustering, DiffuseForm, Emission, GlossyForm, LightSampling, OcclusionMethod, PdfMethod,
+    Primary, SharpnessFit, Variance,
 };
 
 /// The G-buffer phase.
@@ -131,6 +131,8 @@ pub struct PathPlan {
     pub glossy: bool,
     /// Points of surfaces that shine are drawn.
     pub emitters: bool,
+    /// Which of them and of the lights.
+    pub light_sampling: LightSampling,
     /// What is read of surfaces.
     pub surface: SurfacePlan,
 }

@@ -3,7 +3,7 @@
 use super::reasons::Reasons;
 use super::{GBufferPlan, PathPlan, Plan, ShadePlan, SurfacePlan};
 use crate::scene::{SceneFacts, SurfaceFacts};
-use crate::settings::{Primary, Settings};
+use crate::settings::{LightSampling, OcclusionMethod, Primary, Settings};
 
 impl Plan {
     /// Paths: what the camera sees is needed for the layers that are not light.
@@ -26,6 +26,20 @@ impl Plan {
             ],
             "points of surfaces that shine are drawn",
         );
+        let sources = facts.lights + if emitters { facts.emitters } else { 0 };
+        reasons.decide(
+            "lights by power",
+            &[
+                (sources > 0, "there is no light"),
+                (sources > 1, "there is one light alone"),
+                (
+                    settings.light_sampling == LightSampling::Power,
+                    "each is drawn with the same chance, as asked",
+                ),
+            ],
+            "more paths go to lights that send more",
+        );
+        reasons.not_for_paths(settings);
         let masks = facts.masks;
         let of = |facts: SurfaceFacts, anisotropy, emission| SurfacePlan {
             textures: facts.textures,
@@ -51,6 +65,7 @@ impl Plan {
                 seed: 0,
                 glossy,
                 emitters,
+                light_sampling: settings.light_sampling,
                 surface: of(
                     facts.any,
                     glossy && facts.any.anisotropy,
@@ -58,6 +73,37 @@ impl Plan {
                 ),
             }),
             reasons: reasons.0,
+        }
+    }
+}
+
+impl Reasons {
+    /// Says which settings ask for something that paths do not need.
+    fn not_for_paths(&mut self, settings: &Settings) {
+        let why = "not needed with the method `path`, which draws paths to all lights itself";
+        if settings.interleave > 1 {
+            self.no("interleaved shading", why);
+        }
+        if settings.occlusion.has_maps() {
+            self.no(
+                "shadow maps",
+                "not needed with the method `path`: rays say what blocks light",
+            );
+        }
+        if settings.occlusion == OcclusionMethod::Sampled {
+            self.no("sampled occlusion", why);
+        }
+        if settings.occlusion == OcclusionMethod::None {
+            self.no(
+                "light through walls",
+                "not with the method `path`: what blocks light blocks it",
+            );
+        }
+        if settings.primary == Primary::Raster {
+            self.no(
+                "raster",
+                "not needed with the method `path`: paths begin with rays",
+            );
         }
     }
 }

@@ -5,11 +5,14 @@
 //! the sum of the cells' luminances, so every point stands for the same flux, dark texels get none, and the sum of all points
 //! is the flux of all cells. Neighbours in the hierarchy of the scene are neighbours in the list.
 
-use crate::data::{DOUBLE_SIDED, EmitterRecord, MaterialRecord, NO_TEXTURE, SceneData, UNLIT};
+use crate::data::{
+    DOUBLE_SIDED, EmitterRecord, LampRecord, MaterialRecord, NO_TEXTURE, SceneData, UNLIT,
+};
 use crate::math::vec::luminance;
 use crate::phase::footprint::{Footprint, Place};
 use crate::phase::pdf::{GOLDEN_TURN, unit};
-use crate::phase::{mask, texture};
+use crate::phase::{draw, mask, texture};
+use crate::settings::LightSampling;
 use glam::{DVec3, Vec3};
 use std::f64::consts::PI;
 
@@ -37,9 +40,38 @@ struct Cell {
     passed: f64,
 }
 
-/// The points; none where nothing shines.
-pub(super) fn points(scene: &SceneData) -> Vec<EmitterRecord> {
+/// The points and the triangles; none where nothing shines.
+pub(super) fn of(scene: &SceneData) -> (Vec<EmitterRecord>, Vec<LampRecord>) {
     let cells = cells(scene);
+    (points(scene, &cells), lamps(&cells))
+}
+
+/// The triangles with the shares that they are drawn by.
+fn lamps(cells: &[Cell]) -> Vec<LampRecord> {
+    let mut lamps: Vec<(u32, f64)> = Vec::new();
+    let mut before = 0.0;
+    for cell in cells {
+        let flux = cell.passed - before;
+        before = cell.passed;
+        match lamps.last_mut() {
+            Some((triangle, sum)) if *triangle == cell.triangle => *sum += flux,
+            _ => lamps.push((cell.triangle, flux)),
+        }
+    }
+    let power: Vec<f64> = lamps.iter().map(|&(_, flux)| flux).collect();
+    let by_power = draw::shares(&power, LightSampling::Power);
+    let evenly = draw::shares(&power, LightSampling::Uniform);
+    let shares = by_power.into_iter().zip(evenly);
+    let lamp = |(&(triangle, _), (by_power, evenly)): (&(u32, f64), (u32, u32))| LampRecord {
+        triangle,
+        by_power,
+        evenly,
+        padding: 0,
+    };
+    lamps.iter().zip(shares).map(lamp).collect()
+}
+
+fn points(scene: &SceneData, cells: &[Cell]) -> Vec<EmitterRecord> {
     let total = cells.last().map_or(0.0, |cell| cell.passed);
     if total <= 0.0 {
         return Vec::new();

@@ -22,7 +22,7 @@ impl SceneData {
         let (mut data, smaller) = Self::all_but_texels(scene);
         let texels = scene.textures.iter().map(|t| Cow::Borrowed(&t.texels[..]));
         data.texel = join(texels, smaller, texel_count(scene));
-        data.emitter = emitters::points(&data);
+        (data.emitter, data.lamp) = emitters::of(&data);
         data
     }
 
@@ -39,7 +39,7 @@ impl SceneData {
         let texels = scene.textures.iter_mut();
         let texels = texels.map(|t| Cow::Owned(take(&mut t.texels)));
         data.texel = join(texels, smaller, count);
-        data.emitter = emitters::points(&data);
+        (data.emitter, data.lamp) = emitters::of(&data);
         data
     }
 
@@ -108,6 +108,7 @@ impl SceneData {
             texture: textures,
             texel: Vec::new(),
             emitter: Vec::new(),
+            lamp: Vec::new(),
         };
         (data, smaller)
     }

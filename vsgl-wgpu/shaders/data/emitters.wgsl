@@ -1,4 +1,4 @@
-// Points of surfaces that shine. Twin of `vsgl-core/src/data/emitter.rs`.
+// Points of surfaces that shine, and the triangles. Twin of `vsgl-core/src/data/emitter.rs`.
 
 struct EmitterRecord {
     position: vec3<f32>,
@@ -6,5 +6,12 @@ struct EmitterRecord {
     normal: vec3<f32>,
     triangle: u32,
     flux: vec3<f32>,
+    padding: u32,
+}
+
+struct LampRecord {
+    triangle: u32,
+    by_power: u32,
+    evenly: u32,
     padding: u32,
 }

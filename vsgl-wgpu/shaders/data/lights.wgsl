@@ -47,7 +47,8 @@ struct LightRecord {
     intensity: vec3<f32>,
     inverse_range2: f32,
     parallel: u32,
-    padding: array<u32, 3>,
+    passed: u32,
+    padding: array<u32, 2>,
 }
 
 // Share of the on-axis intensity in a direction at `cosine` to the axis.

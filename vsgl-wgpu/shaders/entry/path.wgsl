@@ -11,6 +11,8 @@ override MASKS: bool = true;
 override EMISSION: bool = true;
 // Points of surfaces that shine are drawn.
 override EMITTERS: bool = true;
+// They are drawn by their power, not evenly.
+override BY_POWER: bool = true;
 // Light of lights is reflected by `bsdf` here, not by `direct_radiance`.
 const ANISOTROPIC_RECEIVERS: bool = false;
 
@@ -19,8 +21,8 @@ struct Params {
     lift: f32,
     nodes: u32,
     lights: u32,
-    // Points of surfaces that shine.
-    emitters: u32,
+    // Triangles that shine.
+    lamps: u32,
     max_depth: u32,
     seed: u32,
     // Samples of this dispatch, of which the first of a piece begins the sum.
@@ -38,7 +40,7 @@ struct Params {
 @group(0) @binding(3) var<storage, read> corner_normal: array<array<f32, 9>>;
 @group(0) @binding(4) var texels: texture_2d_array<u32>;
 @group(0) @binding(5) var<storage, read> direct_light: array<LightRecord>;
-@group(0) @binding(6) var<storage, read> emitter: array<EmitterRecord>;
+@group(0) @binding(6) var<storage, read> lamp: array<LampRecord>;
 // Columns direct, indirect_diffuse, indirect_glossy.
 @group(0) @binding(7) var<storage, read_write> radiance_out: array<f32>;
 @group(0) @binding(8) var<uniform> columns: TexelLayout;

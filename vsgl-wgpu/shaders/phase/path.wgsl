@@ -1,7 +1,7 @@
-//! needs: data/emitters, data/view, geom/traverse, math/sobol, phase/bsdf, phase/direct, phase/facing, phase/mask, phase/surface
+//! needs: data/emitters, data/view, geom/traverse, math/sobol, phase/bsdf, phase/direct, phase/draw, phase/facing, phase/mask, phase/surface
 // Paths of light from the eye. Twin of `vsgl-core/src/phase/path.rs`.
 //
-// Reads `params`, `direct_light` and `emitter` of the entry, and its constant EMITTERS.
+// Reads `params`, `direct_light` and `lamp` of the entry, and its constant EMITTERS.
 
 struct Light {
     direct: vec3<f32>,
@@ -73,13 +73,13 @@ fn path_area_vector(triangle: u32) -> vec3<f32> {
     return cross(ab, ac);
 }
 
-// Points of triangles below this one; they lie in the order of triangles.
-fn path_emitters_below(triangle: u32) -> u32 {
+// Triangles that shine below this one.
+fn path_lamps_below(triangle: u32) -> u32 {
     var low = 0u;
-    var high = params.emitters;
+    var high = params.lamps;
     while low < high {
         let middle = low + (high - low) / 2u;
-        if emitter[middle].triangle < triangle {
+        if lamp[middle].triangle < triangle {
             low = middle + 1u;
         } else {
             high = middle;
@@ -89,12 +89,17 @@ fn path_emitters_below(triangle: u32) -> u32 {
 }
 
 fn path_emitter_density(triangle: u32, area: f32) -> f32 {
-    if !EMITTERS || params.emitters == 0u {
+    if !EMITTERS {
         return 0.0;
     }
-    let count = path_emitters_below(triangle + 1u) - path_emitters_below(triangle);
-    let share = f32(count) / f32(params.emitters);
-    return share / max(area, F32_MIN_POSITIVE);
+    let index = path_lamps_below(triangle);
+    if index == params.lamps {
+        return 0.0;
+    }
+    if lamp[index].triangle != triangle {
+        return 0.0;
+    }
+    return draw_lamp_chance(index) / max(area, F32_MIN_POSITIVE);
 }
 
 fn path_heuristic(other: f32) -> f32 {
@@ -147,13 +152,13 @@ fn walk_shine(own: Walk, depth: u32, met: Met, ray: Ray) -> Walk {
 }
 
 fn walk_connect_light(own: Walk, depth: u32, met: Met, which: f32) -> Walk {
-    let count = params.lights;
-    if count == 0u {
+    let drawn = draw_light(which);
+    if drawn.index == params.lights {
         return own;
     }
-    let light = direct_light[min(u32(which * f32(count)), count - 1u)];
+    let light = direct_light[drawn.index];
     let incoming = direct_incoming(light, met.surface.position);
-    let reflected = path_reflected(met, incoming.axis, incoming.strength * f32(count));
+    let reflected = path_reflected(met, incoming.axis, incoming.strength / drawn.chance);
     if all(reflected == vec3(0.0)) {
         return own;
     }
@@ -165,8 +170,11 @@ fn walk_connect_light(own: Walk, depth: u32, met: Met, which: f32) -> Walk {
 }
 
 fn walk_connect_emitter(own: Walk, depth: u32, met: Met, which: f32, at: vec2<f32>) -> Walk {
-    let count = params.emitters;
-    let triangle = emitter[min(u32(which * f32(count)), count - 1u)].triangle;
+    let chosen = draw_lamp(which);
+    if chosen.index == params.lamps {
+        return own;
+    }
+    let triangle = lamp[chosen.index].triangle;
     let root = sqrt(at.x);
     let place = path_point(Hit(triangle, 0.0, root * (1.0 - at.y), root * at.y));
     let position = surface_interpolate(corner[triangle], place.u, place.v);
@@ -177,7 +185,8 @@ fn walk_connect_emitter(own: Walk, depth: u32, met: Met, which: f32, at: vec2<f3
     let area = 0.5 * sqrt(dot(twice, twice));
     let side = vec_normalize(twice);
     let cosine = abs(dot(side, direction));
-    let density = path_emitter_density(triangle, area) * (distance2 / max(cosine, 1e-9));
+    let drawn = chosen.chance / max(area, F32_MIN_POSITIVE);
+    let density = drawn * (distance2 / max(cosine, 1e-9));
     if cosine <= 0.0 || density <= 0.0 || !mask_covers(triangle, place.u, place.v) {
         return own;
     }
@@ -208,9 +217,7 @@ fn walk_scatter(own: Walk, depth: u32, met: Met, index: u32, stream: u32) -> Wal
     let roulette_emitter = sobol_point(index, pair + 3u, stream);
     walk = walk_connect_light(walk, depth, met, which_part.x);
     if EMITTERS {
-        if params.emitters > 0u {
-            walk = walk_connect_emitter(walk, depth, met, roulette_emitter.y, on_emitter);
-        }
+        walk = walk_connect_emitter(walk, depth, met, roulette_emitter.y, on_emitter);
     }
     if depth + 1u == params.max_depth && !EMISSION {
         return walk;

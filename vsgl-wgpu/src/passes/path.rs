@@ -11,9 +11,11 @@ use bytemuck::{Pod, Zeroable};
 use std::ops::Range;
 use std::sync::Arc;
 use vsgl_core::Result;
-use vsgl_core::data::{LightRecord, Radiance, SceneData};
+use vsgl_core::data::{Radiance, SceneData};
+use vsgl_core::phase::draw;
 use vsgl_core::plan::PathPlan;
 use vsgl_core::scene::Light;
+use vsgl_core::settings::LightSampling;
 
 /// Paths of one dispatch, about: what a GPU does in less than a tenth of a second, and a software driver in a second or so.
 const PATHS_GPU: u32 = 1 << 22;
@@ -27,7 +29,7 @@ struct Params {
     lift: f32,
     nodes: u32,
     lights: u32,
-    emitters: u32,
+    lamps: u32,
     max_depth: u32,
     seed: u32,
     first_sample: u32,
@@ -44,6 +46,8 @@ fn constants(plan: &PathPlan, textures: bool) -> Vec<Constant> {
     constants.push(("MASKS", flag(plan.surface.masks)));
     constants.push(("EMISSION", flag(plan.surface.emission)));
     constants.push(("EMITTERS", flag(plan.emitters)));
+    let by_power = plan.light_sampling == LightSampling::Power;
+    constants.push(("BY_POWER", flag(by_power)));
     constants
 }
 
@@ -90,7 +94,8 @@ impl Tracing {
                 ("emitted", 48, 0),
             ],
         )?;
-        let records: Vec<LightRecord> = lights.iter().map(LightRecord::from).collect();
+        let bounds = SceneData::bounds_of(&scene.head);
+        let records = draw::lights(lights, bounds, plan.light_sampling);
         let bytes = bytemuck::cast_slice(&records);
         let lights = context.buffer("the lights", bytes.len() as u64)?;
         if !bytes.is_empty() {
@@ -107,7 +112,7 @@ impl Tracing {
                 lift: f32::from_bits(scene.head[0]),
                 nodes: scene.len("node") as u32,
                 lights: records.len() as u32,
-                emitters: scene.len("emitter") as u32,
+                lamps: scene.len("lamp") as u32,
                 max_depth: plan.max_depth,
                 seed: plan.seed,
                 first_sample: 0,
@@ -155,7 +160,7 @@ impl Tracing {
         let mut bound = scene_columns(scene);
         bound.extend([
             ("direct_light", Binding::Buffer(&self.lights)),
-            ("emitter", scene.bind("emitter")),
+            ("lamp", scene.bind("lamp")),
             ("radiance_out", self.radiance.bind("direct")),
         ]);
         let items = Groups::Items(u64::from(pixels.end - pixels.start));
@@ -183,7 +188,7 @@ mod tests {
                 lift,
                 nodes,
                 lights,
-                emitters,
+                lamps,
                 max_depth,
                 seed,
                 first_sample,
