@@ -10,7 +10,8 @@ use vsgl_core::plan::{BouncePlan, PdfPlan, Plan, RsmPlan};
 use vsgl_core::render::{View, render};
 use vsgl_core::scene::{Light, PointLight, Scene, SceneFacts, samples};
 use vsgl_core::settings::{
-    Clustering, DiffuseForm, GlossyForm, Method, OcclusionMethod, PdfMethod, Preset, Settings,
+    Clustering, DiffuseForm, GlossyForm, LightSampling, Method, OcclusionMethod, PdfMethod, Preset,
+    Settings,
 };
 use vsgl_cpu::CpuBackend;
 
@@ -389,6 +390,31 @@ fn paths(c: &mut Criterion) {
         });
         let path = plan.path.as_ref().expect("paths");
         group.bench_function(name, |b| {
+            b.iter(|| {
+                let lights = &set.scene.lights;
+                set.backend
+                    .trace(&set.data, black_box(lights), &set.view, path, 0..8, &())
+                    .expect("cpu")
+            });
+        });
+    }
+    // Lights of very different power.
+    let mut set = Set::new("many-lights:16", 160, 90);
+    for (index, light) in set.scene.lights.iter_mut().enumerate() {
+        if let Light::Spot(spot) = light {
+            spot.intensity = spot.intensity.map(|i| i / (1 << index) as f32);
+        }
+    }
+    for &light_sampling in LightSampling::ALL {
+        let plan = set.plan(&Settings {
+            method: Method::Path,
+            spp: 8,
+            max_depth: 3,
+            light_sampling,
+            ..Settings::default()
+        });
+        let path = plan.path.as_ref().expect("paths");
+        group.bench_function(format!("16 lights, {light_sampling}"), |b| {
             b.iter(|| {
                 let lights = &set.scene.lights;
                 set.backend

@@ -53,6 +53,10 @@ fn nonsense_in_flags_is_code_2() {
         ("--sun 0,-1,0:NaN", &["--sun", "W/m²"]),
         ("--method path --aa 2", &["aa", "spp"]),
         ("--method path --spp 0", &["spp", "1 to"]),
+        (
+            "--method path --light-sampling sg",
+            &["--light-sampling", "power", "uniform"],
+        ),
         ("--method path --max-depth 65", &["max_depth", "64"]),
         ("--occlusion lightmaps", &["--occlusion", "rays"]),
         ("--occlusion ism --method vpl", &["occlusion", "vpl"]),

@@ -74,6 +74,21 @@ fn merged_parts_are_the_file_of_one_run() {
 }
 
 #[test]
+fn the_reported_command_makes_the_same_part() {
+    let folder = Folder::new();
+    let flags = "-o a.exr --samples 8:16 --max-depth 4 --light-sampling uniform --json";
+    let document = render(&folder, flags).json();
+    assert_eq!(document["samples"], serde_json::json!([[8, 16]]));
+    let part = folder.bytes("a.exr");
+    std::fs::remove_file(folder.path("a.exr")).expect("written");
+    let command = document["command"].as_str().expect("a string");
+    folder
+        .run(command.strip_prefix("vsgl ").expect("of this program"))
+        .ok();
+    assert!(folder.bytes("a.exr") == part, "{command}");
+}
+
+#[test]
 fn a_part_shows_the_mean_of_its_samples() {
     let folder = Folder::new();
     render(&folder, "-o first.exr --samples 0:16").ok();

@@ -64,7 +64,8 @@ impl Job {
                 continue;
             }
             if SettingsArgs::FLAGS.contains(&key) {
-                words.extend([format!("--{key}"), value]);
+                let flag = key.replace('_', "-");
+                words.extend([format!("--{flag}"), value]);
             } else {
                 words.extend(["--set".into(), format!("{key}={value}")]);
             }

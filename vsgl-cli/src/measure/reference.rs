@@ -5,17 +5,22 @@ use crate::device::Host;
 use crate::exit::{Failure, Result};
 use crate::job::{Job, settings_json};
 use crate::output::{self, Metadata, Pending};
+use crate::paths::Course;
 use crate::picture::{Channel, Picture};
 use crate::progress::Progress;
-use crate::{input, text};
+use crate::{fingerprint, input, interrupt, part, text};
 use serde_json::{Value, json};
 use std::path::Path;
+use std::time::{Duration, Instant};
 use vsgl_core::data::SceneData;
 use vsgl_core::render::{Observer, View, render};
 use vsgl_core::settings::{Method, Settings};
+use vsgl_core::trace::Paths;
 
 /// Names of the halves in a sweep's folder.
 const HALVES: [&str; 2] = ["reference-a.exr", "reference-b.exr"];
+/// How often a half is saved.
+const SAVED: Duration = Duration::from_secs(60);
 /// Name of their mean.
 const WHOLE: &str = "reference.exr";
 
@@ -61,7 +66,8 @@ pub(crate) struct Wanted<'a> {
 }
 
 impl Wanted<'_> {
-    /// Renders what the folder does not hold yet.
+    /// Renders what the folder does not hold yet. A half is saved every minute, and when somebody asks to stop; it goes on from there,
+    /// and ends with the bits of one that was never interrupted.
     ///
     /// # Errors
     /// What rendering, reading and writing return.
@@ -73,7 +79,7 @@ impl Wanted<'_> {
     ) -> Result<Reference> {
         let half = |index: usize| {
             let path = self.folder.join(HALVES[index]);
-            if !path.exists() {
+            if !is_whole(&path) {
                 let seed = self.job.seed.wrapping_add(1 + index as u64);
                 self.render(backend, scene, &path, seed, progress)?;
             }
@@ -99,24 +105,63 @@ impl Wanted<'_> {
     ) -> Result<()> {
         let job = self.job;
         let spp = self.spp.div_ceil(2);
-        let picture = half(backend, scene, job, &job.view, (spp, seed), progress)?;
         let settings = paths(job, spp);
+        let plan = job.plan_for(&settings, seed)?;
+        let view = View { aa: 1, ..job.view };
         let mut words = job.words_for(&settings);
         words.extend(["--seed".into(), seed.to_string()]);
         let start = ["vsgl", "render"].map(String::from);
         let command = text::shell(&[&start[..], &words].concat());
-        self.write(path, picture, command, settings_json(&settings))
+        let print = fingerprint::of_scene(&backend.download(scene)?);
+        let paths = Paths {
+            backend,
+            scene,
+            lights: &job.lights,
+            view: &view,
+            plan: &plan,
+        };
+        let mut course = Course::new(paths, 0..spp, &print, command.clone(), progress)?;
+        if path.exists() {
+            course.take(part::read(path)?)?;
+        }
+        let metadata = self.metadata(command, settings_json(&settings));
+        let save = |course: &Course<'_, B>| match course.sums() {
+            Some(sums) => Pending::create(path)?
+                .write(|file| part::write(file, &course.image(), sums, course.about(), &metadata)),
+            None => Ok(()),
+        };
+        let mut saved = Instant::now();
+        course.run(progress, interrupt::asked, |course| {
+            if saved.elapsed() < SAVED {
+                return Ok(());
+            }
+            saved = Instant::now();
+            save(course)
+        })?;
+        save(&course)?;
+        if course.left().is_empty() {
+            return Ok(());
+        }
+        Err(Failure::Interrupted(format!(
+            "{} holds samples {} of {spp}; the same command goes on",
+            path.display(),
+            course.about().samples
+        )))
     }
 
     fn write(&self, path: &Path, picture: Picture, command: String, settings: Value) -> Result<()> {
-        let metadata = Metadata {
+        let metadata = self.metadata(command, settings);
+        Pending::create(path)?.write(|file| output::exr::write(file, picture, &metadata))
+    }
+
+    fn metadata(&self, command: String, settings: Value) -> Metadata {
+        Metadata {
             software: output::software(),
             command,
             world_to_camera: Some(self.job.world_to_camera()),
             settings,
             paths: None,
-        };
-        Pending::create(path)?.write(|file| output::exr::write(file, picture, &metadata))
+        }
     }
 
     fn read(&self, path: &Path) -> Result<Picture> {
@@ -133,6 +178,12 @@ impl Wanted<'_> {
         let remedy = "remove it, and it is made anew";
         Err(Failure::input(path, problem, remedy))
     }
+}
+
+/// Whether there is a half with all of its samples.
+fn is_whole(path: &Path) -> bool {
+    // What is no picture of paths is judged when it is read.
+    path.exists() && part::read(path).map_or(true, |part| part.sums.is_none())
 }
 
 /// Renders one half of a reference: so many paths through each pixel, with this seed.
