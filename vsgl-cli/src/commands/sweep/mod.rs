@@ -15,7 +15,7 @@ use crate::output::tonemap::Tonemap;
 use crate::output::{self, Metadata, Pending};
 use crate::picture::Picture;
 use crate::progress::{Progress, Steps};
-use crate::{interrupt, text};
+use crate::{fingerprint, interrupt, text};
 use grid::{Combination, Grid};
 use record::Records;
 use serde_json::{Value, json};
@@ -64,9 +64,8 @@ const HASTY: Depth = Depth {
 /// # Errors
 /// What reading, rendering and writing return; [`Failure::Output`] if the folder holds another sweep.
 pub(super) fn run(args: &SweepArgs) -> Result<()> {
-    let mut sweep = Sweep::new(args)?;
+    let (mut sweep, data) = Sweep::new(args)?;
     let backends = backends(&args.sweep.backend, args.sweep.threads)?;
-    let data = sweep.job.prepare()?;
     let last = backends.len() - 1;
     let mut data = Some(data);
     for (index, backend) in backends.iter().enumerate() {
@@ -97,6 +96,16 @@ fn backends(names: &[BackendName], threads: usize) -> Result<Vec<Chosen>> {
     })
 }
 
+/// What became of a combination.
+enum Found {
+    /// It was recorded before; seconds of a frame.
+    There(f64),
+    /// It was measured.
+    New(Box<Value>),
+    /// It was not measured, for this reason.
+    LeftOut(String),
+}
+
 /// A sweep on its way.
 struct Sweep<'a> {
     args: &'a SweepArgs,
@@ -112,7 +121,7 @@ struct Sweep<'a> {
 }
 
 impl<'a> Sweep<'a> {
-    fn new(args: &'a SweepArgs) -> Result<Self> {
+    fn new(args: &'a SweepArgs) -> Result<(Self, SceneData)> {
         let out = &args.sweep;
         let mut defaults = Defaults::default();
         if out.quick {
@@ -133,8 +142,10 @@ impl<'a> Sweep<'a> {
         depth.longest = out.longest.unwrap_or(depth.longest);
         let grid = Grid::new(&job, &args.settings, &out.grid, out.quick)?;
         interrupt::listen()?;
-        let records = Records::open(&out.output, header(args, &job, depth))?;
-        Ok(Self {
+        let data = job.prepare()?;
+        let header = header(args, &job, depth, &fingerprint::of_scene(&data));
+        let records = Records::open(&out.output, header)?;
+        let sweep = Self {
             args,
             left_out: grid.left_out.clone(),
             job,
@@ -143,67 +154,90 @@ impl<'a> Sweep<'a> {
             records,
             reference: None,
             devices: Vec::new(),
-        })
+        };
+        Ok((sweep, data))
     }
 
     /// All combinations on one backend; the first renders the reference too.
     fn on<B: Host>(&mut self, backend: &B, data: SceneData) -> Result<()> {
         let scene = backend.upload(data)?;
-        let name = backend.name();
         let reference = match self.reference.take() {
             Some(reference) => reference,
             None => self.reference_by(backend, &scene)?,
         };
-        let device = format!("{name}, {}", backend.device());
-        self.devices.push(device.clone());
+        self.devices.push(device_of(backend));
         let steps = Steps::new(self.args.sweep.progress, self.grid.combinations.len());
         let mut done: Vec<(usize, f64)> = Vec::new();
         for index in 0..self.grid.combinations.len() {
-            let combination = &self.grid.combinations[index];
-            let id = format!("{name}_{}", combination.id());
-            let label = format!("{name}: {}", combination.name());
-            if let Some(point) = self.records.find(&id) {
-                done.push((index, seconds(point)));
-                steps.passed(&format!("{label}: there already"));
-                continue;
-            }
-            if let Some(expected) = self
-                .expected(index, &done)
-                .filter(|s| *s > self.depth.longest)
-            {
-                let why = format!("a frame would take about {expected:.0} s; see --longest");
-                steps.passed(&format!("{label}: left out, {why}"));
-                self.left_out.push((label, why));
-                continue;
-            }
+            let label = format!(
+                "{}: {}",
+                backend.name(),
+                self.grid.combinations[index].name()
+            );
             interrupt::check()?;
             steps.begun(&label);
-            let effort = Effort {
-                runs: self.depth.runs,
-                patience: Duration::from_secs(self.depth.patience),
-            };
-            let shot = Shot {
-                lights: &self.job.lights,
-                view: &self.job.view,
-                plan: &combination.plan,
-            };
-            let measured = match measure(backend, &scene, shot, effort) {
-                Ok(measured) => measured,
-                Err(Failure::Usage(why)) => {
-                    steps.passed(&format!("{label}: left out, {why}"));
-                    self.left_out.push((label, why));
-                    continue;
+            let told = match self.one(backend, &scene, index, &reference, &done)? {
+                Found::There(seconds) => {
+                    done.push((index, seconds));
+                    "there already".to_owned()
                 }
-                Err(failure) => return Err(failure),
+                Found::New(point) => {
+                    done.push((index, seconds(&point)));
+                    let told = report::brief(&point);
+                    self.records.push(*point)?;
+                    told
+                }
+                Found::LeftOut(why) => {
+                    let told = format!("left out, {why}");
+                    self.left_out.push((label.clone(), why));
+                    told
+                }
             };
-            let point = self.point(&id, [name, &device], combination, &measured, &reference)?;
-            done.push((index, seconds(&point)));
-            steps.passed(&format!("{label}: {}", report::brief(&point)));
-            self.records.push(point)?;
+            steps.passed(&format!("{label}: {told}"));
         }
         steps.finish();
         self.reference = Some(reference);
         Ok(())
+    }
+
+    /// One combination, if it is not there yet and does not take for ever. `done` has the seconds of others.
+    fn one<B: Host>(
+        &self,
+        backend: &B,
+        scene: &B::Res<SceneData>,
+        index: usize,
+        reference: &Reference,
+        done: &[(usize, f64)],
+    ) -> Result<Found> {
+        let combination = &self.grid.combinations[index];
+        let id = format!("{}_{}", backend.name(), combination.id());
+        if let Some(point) = self.records.find(&id) {
+            return Ok(Found::There(seconds(point)));
+        }
+        let longest = self.depth.longest;
+        if let Some(expected) = self.expected(index, done).filter(|s| *s > longest) {
+            let why = format!("a frame would take about {expected:.0} s; see --longest");
+            return Ok(Found::LeftOut(why));
+        }
+        let effort = Effort {
+            runs: self.depth.runs,
+            patience: Duration::from_secs(self.depth.patience),
+        };
+        let shot = Shot {
+            lights: &self.job.lights,
+            view: &self.job.view,
+            plan: &combination.plan,
+        };
+        match measure(backend, scene, shot, effort) {
+            Ok(measured) => {
+                let on = [backend.name(), &device_of(backend)];
+                let point = self.point(&id, on, combination, &measured, reference)?;
+                Ok(Found::New(Box::new(point)))
+            }
+            // What a device cannot hold, for one.
+            Err(Failure::Usage(why)) => Ok(Found::LeftOut(why)),
+            Err(failure) => Err(failure),
+        }
     }
 
     fn reference_by<B: Host>(&self, backend: &B, scene: &B::Res<SceneData>) -> Result<Reference> {
@@ -310,20 +344,25 @@ impl<'a> Sweep<'a> {
     }
 }
 
+/// A backend and what it runs on, in words.
+fn device_of<B: Host>(backend: &B) -> String {
+    format!("{}, {}", backend.name(), backend.device())
+}
+
 /// Seconds of a recorded frame.
 fn seconds(point: &Value) -> f64 {
     point["wall"]["median"].as_f64().unwrap_or(f64::INFINITY)
 }
 
 /// What begins the records of a sweep. `sweep` holds what its points have in common.
-fn header(args: &SweepArgs, job: &Job, depth: Depth) -> Value {
+fn header(args: &SweepArgs, job: &Job, depth: Depth, scene: &str) -> Value {
     json!({
         "kind": "sweep",
         "schema_version": crate::commands::SCHEMA_VERSION,
         "sweep": {
             "software": output::software(),
             "job": job.words(),
-            "triangles": job.facts.triangles,
+            "scene": scene,
             "reference_spp": depth.spp,
             "threads": args.sweep.threads,
         },
