@@ -10,7 +10,7 @@ use crate::exit::{Failure, Result};
 use crate::job::Job;
 use crate::measure::{Effort, Shot, measure};
 use model::{Model, Outcome};
-use pilot::{SIDES, Truth, calibrate};
+use pilot::{Choices, SIDES, Truth, calibrate};
 use serde_json::{Value, json};
 use std::time::{Duration, Instant};
 use vsgl_core::data::SceneData;
@@ -87,19 +87,21 @@ pub(crate) fn choose<B: Host>(
     let start = Instant::now();
     let truth = Truth::trace(backend, scene, job, observer)?;
     let usual = &job.settings;
-    let kinds = if open.occlusion {
-        &KINDS[..]
-    } else {
-        &[usual.occlusion][..]
+    let choices = Choices {
+        kinds: if open.occlusion {
+            &KINDS
+        } else {
+            &[usual.occlusion]
+        },
+        sides: if open.interleave {
+            &SIDES
+        } else {
+            &[usual.interleave]
+        },
+        lights: (!open.lights).then_some(usual.lights),
     };
-    let sides = if open.interleave {
-        &SIDES[..]
-    } else {
-        &[usual.interleave][..]
-    };
-    let lights = (!open.lights).then_some(usual.lights);
-    let mut model = calibrate(backend, scene, job, &truth, kinds, sides, lights)?;
-    let candidates = candidates(usual, kinds, sides, lights);
+    let mut model = calibrate(backend, scene, job, &truth, &choices)?;
+    let candidates = candidates(usual, &choices);
 
     let mut tried: Vec<(Settings, Outcome, Outcome)> = Vec::new();
     while tried.len() < ROUNDS {
@@ -166,17 +168,12 @@ pub(crate) fn check(job: &Job) -> Result<()> {
 }
 
 /// All that may be chosen.
-fn candidates(
-    usual: &Settings,
-    kinds: &[OcclusionMethod],
-    sides: &[u32],
-    lights: Option<u32>,
-) -> Vec<Settings> {
-    let numbers = lights.map_or(LIGHTS.to_vec(), |n| vec![n]);
+fn candidates(usual: &Settings, choices: &Choices<'_>) -> Vec<Settings> {
+    let numbers = choices.lights.map_or(LIGHTS.to_vec(), |n| vec![n]);
     let mut all = Vec::new();
     for &lights in &numbers {
-        for &interleave in sides {
-            for &occlusion in kinds {
+        for &interleave in choices.sides {
+            for &occlusion in choices.kinds {
                 // A pixel without a light of its own has nothing to shade.
                 if lights >= interleave * interleave || interleave == 1 {
                     all.push(Settings {
@@ -319,13 +316,23 @@ mod tests {
             lights: 77,
             ..Settings::default()
         };
-        let all = candidates(&usual, &[OcclusionMethod::None], &[1, 2], Some(77));
+        let choices = Choices {
+            kinds: &[OcclusionMethod::None],
+            sides: &[1, 2],
+            lights: Some(77),
+        };
+        let all = candidates(&usual, &choices);
         assert_eq!(all.len(), 2);
         assert!(
             all.iter()
                 .all(|s| s.lights == 77 && s.occlusion == OcclusionMethod::None)
         );
-        let all = candidates(&usual, &KINDS, &SIDES, None);
+        let choices = Choices {
+            kinds: &KINDS,
+            sides: &SIDES,
+            lights: None,
+        };
+        let all = candidates(&usual, &choices);
         assert!(
             all.iter()
                 .all(|s| s.interleave == 1 || s.lights >= s.interleave * s.interleave)
