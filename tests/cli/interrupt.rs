@@ -74,3 +74,22 @@ fn ctrl_c_leaves_the_paths_so_far_which_go_on() {
         assert!(folder.bytes(&a) == folder.bytes(&once), "{suffix}");
     }
 }
+
+#[test]
+fn ctrl_c_leaves_the_reference_of_a_sweep_so_far_which_goes_on() {
+    let folder = Folder::new();
+    let sweep =
+        "sweep --backend cpu --size 16x9 --rsm 16 --spp 24000 --runs 1 --grid lights=4 --threads 1";
+    let (code, rest) = interrupted(&folder, &format!("{sweep} -o s"), "trace 20 %");
+    assert_eq!(code, Some(130), "{rest}");
+    assert!(rest.contains("reference-a.exr"), "{rest}");
+    let part = part::read(&folder.path("s/reference-a.exr")).expect("a part");
+    let samples = part.about.samples;
+    assert!((2400..12_000).contains(&samples.count()), "{samples}");
+    folder.run(&format!("{sweep} -o s")).ok();
+    folder.run(&format!("{sweep} -o once")).ok();
+    for name in ["reference-a.exr", "reference-b.exr", "reference.exr"] {
+        let (s, once) = (format!("s/{name}"), format!("once/{name}"));
+        assert!(folder.bytes(&s) == folder.bytes(&once), "{name}");
+    }
+}
