@@ -24,7 +24,7 @@ pub struct About {
     pub samples: Ranges,
     /// Samples of the whole picture.
     pub of: u32,
-    /// See [`crate::job::Job::fingerprint`].
+    /// See [`crate::fingerprint::of_paths`].
     pub fingerprint: String,
     /// The command that makes the whole picture.
     pub command: String,
