@@ -27,6 +27,7 @@
 //! # }
 //! ```
 
+pub mod explain;
 mod phase;
 
 use std::ops::Range;

@@ -335,36 +335,27 @@ fn anisotropic(arriving: &Arriving, receivers: &Receivers, integral: Integral) -
     specular
 }
 
-/// What receivers reflect of one cluster; `specular` only with glossy senders.
+/// What arrives by the Lambert part of a cluster.
 #[inline(always)]
-pub fn vsgl(
-    diffuse: &DiffuseVsgl,
-    specular: Option<&SpecularVsgl>,
-    receivers: &Receivers,
-    plan: &ShadePlan,
-) -> Sums {
-    let mut sums = Sums::default();
-    let integral = Integral::Lobe(plan.diffuse, plan.glossy);
-    let arriving = match plan.emission {
+fn arriving_diffuse(light: &DiffuseVsgl, receivers: &Receivers, plan: &ShadePlan) -> Arriving {
+    match plan.emission {
         Emission::Cosine => arriving!(i => {
             let r = receivers.lane(i);
-            shade::incoming_diffuse(diffuse, r.position, r.normal)
+            shade::incoming_diffuse(light, r.position, r.normal)
         }),
         Emission::Sg => arriving!(i => {
-            let d = diffuse;
+            let d = light;
             let from = receivers.lane(i).position;
             shade::incoming_sg(d.position, d.variance, d.axis, d.sharpness, d.intensity, from)
         }),
-    };
-    reflect(
-        &mut sums,
-        &arriving,
-        receivers,
-        integral,
-        Specular::of(plan),
-    );
-    let Some(s) = specular else { return sums };
-    let arriving = match plan.emission {
+    }
+}
+
+/// What arrives by the specular part of a cluster.
+#[inline(always)]
+fn arriving_specular(light: &SpecularVsgl, receivers: &Receivers, plan: &ShadePlan) -> Arriving {
+    let s = light;
+    match plan.emission {
         Emission::Cosine if plan.anisotropic_senders => {
             let sender = shade::anisotropic_sender_view(s);
             arriving!(i => {
@@ -383,14 +374,51 @@ pub fn vsgl(
             let from = receivers.lane(i).position;
             shade::incoming_sg(s.position, s.variance, s.mirror, s.sharpness_lobe, s.f0, from)
         }),
+    }
+}
+
+/// What receivers reflect of one cluster; `specular` only with glossy senders.
+#[inline(always)]
+pub fn vsgl(
+    diffuse: &DiffuseVsgl,
+    specular: Option<&SpecularVsgl>,
+    receivers: &Receivers,
+    plan: &ShadePlan,
+) -> Sums {
+    let mut sums = Sums::default();
+    let integral = Integral::Lobe(plan.diffuse, plan.glossy);
+    let kind = Specular::of(plan);
+    let arriving = arriving_diffuse(diffuse, receivers, plan);
+    reflect(&mut sums, &arriving, receivers, integral, kind);
+    let Some(specular) = specular else {
+        return sums;
     };
-    reflect(
-        &mut sums,
-        &arriving,
-        receivers,
-        integral,
-        Specular::of(plan),
-    );
+    let arriving = arriving_specular(specular, receivers, plan);
+    reflect(&mut sums, &arriving, receivers, integral, kind);
+    sums
+}
+
+/// As [`vsgl`], with other strengths of what arrives by the Lambert and by the specular part \[W/m²\].
+#[inline(always)]
+pub(crate) fn vsgl_of_strength(
+    diffuse: &DiffuseVsgl,
+    specular: Option<&SpecularVsgl>,
+    strength: &[Vec3Lanes; 2],
+    receivers: &Receivers,
+    plan: &ShadePlan,
+) -> Sums {
+    let mut sums = Sums::default();
+    let integral = Integral::Lobe(plan.diffuse, plan.glossy);
+    let kind = Specular::of(plan);
+    let mut arriving = arriving_diffuse(diffuse, receivers, plan);
+    arriving.strength = strength[0];
+    reflect(&mut sums, &arriving, receivers, integral, kind);
+    let Some(specular) = specular else {
+        return sums;
+    };
+    let mut arriving = arriving_specular(specular, receivers, plan);
+    arriving.strength = strength[1];
+    reflect(&mut sums, &arriving, receivers, integral, kind);
     sums
 }
 
@@ -411,4 +439,43 @@ pub fn vpl(light: &PointSender, receivers: &Receivers, plan: &ShadePlan) -> Sums
         Specular::of(plan),
     );
     sums
+}
+
+/// Adds the strength of what arrives of a virtual point light by its Lambert and by its specular part \[W/m²\].
+#[inline(always)]
+pub(crate) fn add_vpl_strength(
+    strength: &mut [Vec3Lanes; 2],
+    light: &PointSender,
+    receivers: &Receivers,
+    plan: &ShadePlan,
+) {
+    let lambert = PointSender {
+        f0: Vec3::ZERO,
+        f90: Vec3::ZERO,
+        ..*light
+    };
+    let specular = PointSender {
+        diffuse: Vec3::ZERO,
+        ..*light
+    };
+    let mut add = |sum: usize, arriving: &Arriving| {
+        for channel in 0..3 {
+            for lane in 0..LANES {
+                strength[sum][channel][lane] += arriving.strength[channel][lane];
+            }
+        }
+    };
+    add(
+        0,
+        &arriving!(i => shade::incoming_point(&lambert, receivers.lane(i).position)),
+    );
+    if !plan.glossy_senders {
+        return;
+    }
+    let arriving = if plan.anisotropic_senders {
+        arriving!(i => shade::incoming_anisotropic_point(&specular, receivers.lane(i).position))
+    } else {
+        arriving!(i => shade::incoming_point(&specular, receivers.lane(i).position))
+    };
+    add(1, &arriving);
 }

@@ -35,18 +35,17 @@ impl ColorLanes {
             f90: from_fn(|lane| colors[lane].f90),
         }
     }
-}
 
-impl Contributions {
+    /// Luminance of what the eye gets of sums over lights \[W/(m² sr)\].
     #[inline(always)]
-    pub(crate) fn add(&mut self, sums: &Sums, colors: &ColorLanes) {
+    pub(crate) fn luminance(&self, sums: &Sums) -> [f32; LANES] {
         let mut brought = [0.0; LANES];
         for lane in 0..LANES {
             let get = |v: &[[f32; LANES]; 3]| Vec3::new(v[0][lane], v[1][lane], v[2][lane]);
             let own = Colors {
-                albedo: get(&colors.albedo),
-                f0: get(&colors.f0),
-                f90: colors.f90[lane],
+                albedo: get(&self.albedo),
+                f0: get(&self.f0),
+                f90: self.f90[lane],
             };
             brought[lane] = contribution(
                 &own,
@@ -55,10 +54,24 @@ impl Contributions {
                 get(&sums.grazing),
             );
         }
+        brought
+    }
+}
+
+impl Contributions {
+    #[inline(always)]
+    pub(crate) fn add(&mut self, sums: &Sums, colors: &ColorLanes) {
+        let brought = colors.luminance(sums);
         for lane in 0..LANES {
             self.total[lane] += brought[lane];
         }
         self.lights.push(brought);
+    }
+
+    /// Forgets all lights, and keeps the room.
+    pub(crate) fn clear(&mut self) {
+        self.lights.clear();
+        self.total = [0.0; LANES];
     }
 }
 

@@ -213,6 +213,33 @@ pub(crate) struct Origins {
     pub(crate) hit: [bool; LANES],
 }
 
+/// Sixteen samples of a G-buffer as receivers, and where their shadow rays start. Lanes that are no `hit` must name a sample
+/// that is one.
+pub(crate) fn surfaces(
+    scene: &SceneData,
+    gbuffer: &GBuffer,
+    eye: Vec3,
+    samples: &[usize; LANES],
+    hit: [bool; LANES],
+) -> ([Receiver; LANES], Origins) {
+    let single = samples.map(|sample| Receiver::of(gbuffer, sample, eye));
+    let mut origins = Origins {
+        position: [[0.0; LANES]; 3],
+        facing: [[0.0; LANES]; 3],
+        hit,
+    };
+    for (lane, receiver) in single.iter().enumerate() {
+        let triangle = gbuffer.triangle[samples[lane]];
+        let facing = geometric_normal(scene, triangle, eye - receiver.position);
+        let origin = receiver.position + facing * lift(scene.lift(), receiver.position);
+        for channel in 0..3 {
+            origins.position[channel][lane] = origin[channel];
+            origins.facing[channel][lane] = facing[channel];
+        }
+    }
+    (single, origins)
+}
+
 impl Shader<'_> {
     fn block(&self, start: usize) -> Block {
         let mut block = Block::default();
@@ -234,34 +261,26 @@ impl Shader<'_> {
         let index = |lane: usize| {
             at(if hit[lane] { lane } else { some }).expect("a sample that hit something is inside")
         };
-        let single: [Receiver; LANES] =
-            std::array::from_fn(|lane| Receiver::of(self.gbuffer, index(lane), self.eye));
-        let mut origins = Origins {
-            position: [[0.0; LANES]; 3],
-            facing: [[0.0; LANES]; 3],
+        let (single, origins) = surfaces(
+            self.scene,
+            self.gbuffer,
+            self.eye,
+            &std::array::from_fn(index),
             hit,
-        };
-        for lane in 0..LANES {
-            let receiver = &single[lane];
-            let triangle = self.gbuffer.triangle[index(lane)];
-            let facing = geometric_normal(self.scene, triangle, self.eye - receiver.position);
-            let origin = receiver.position + facing * lift(self.scene.lift(), receiver.position);
-            for channel in 0..3 {
-                origins.position[channel][lane] = origin[channel];
-                origins.facing[channel][lane] = facing[channel];
-            }
-            if hit[lane] {
-                let colors = Colors::of(self.gbuffer, index(lane));
-                let one = |light| {
-                    direct::radiance(self.scene, light, receiver, facing, &colors, self.plan)
-                };
-                let sum = self
-                    .lights
-                    .iter()
-                    .map(one)
-                    .fold(Vec3::ZERO, |sum, more| sum + more);
-                block.direct[lane] = sum.to_array();
-            }
+        );
+        for lane in (0..LANES).filter(|&lane| hit[lane]) {
+            let facing = Vec3::from_array(origins.facing.map(|c| c[lane]));
+            let colors = Colors::of(self.gbuffer, index(lane));
+            let one = |light| {
+                let receiver = &single[lane];
+                direct::radiance(self.scene, light, receiver, facing, &colors, self.plan)
+            };
+            let sum = self
+                .lights
+                .iter()
+                .map(one)
+                .fold(Vec3::ZERO, |sum, more| sum + more);
+            block.direct[lane] = sum.to_array();
         }
         if matches!(self.indirect, Indirect::None) {
             return block;
