@@ -4,6 +4,7 @@ mod adapters;
 mod choose;
 mod compare;
 mod errors;
+mod explain;
 mod help;
 mod info;
 mod interrupt;

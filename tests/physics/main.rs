@@ -6,6 +6,7 @@ mod density;
 mod emission;
 mod emitters;
 mod energy;
+mod explain;
 mod furnace;
 mod invariance;
 mod lights;

@@ -33,6 +33,8 @@ pub mod data;
 #[cfg(feature = "render")]
 mod error;
 #[cfg(feature = "render")]
+pub mod explain;
+#[cfg(feature = "render")]
 pub mod geom;
 #[cfg(feature = "render")]
 pub mod metrics;

@@ -9,6 +9,7 @@ Examples:
   vsgl sweep sample:cornell -o cornell --quick
   vsgl sweep room.glb -o room --size 1280x720 --backend cpu,wgpu
   vsgl sweep room.glb -o room --occlusion rays --grid lights=64,256,1024 --grid rsm=128,256,512
+  vsgl sweep room.glb -o room --explain --occlusion sampled --interleave 4
 
 Every combination of settings is rendered and timed, and compared with the method `path` at the same size. DIR gets
   report.html    curves, pictures, advice: one file that needs no others
@@ -47,6 +48,12 @@ pub struct SweepOutputArgs {
     /// About a minute's worth: 320x180, fewer combinations, fewer runs, a noisier reference
     #[arg(long)]
     pub quick: bool,
+    /// Instead of a sweep: split the error of one picture by its causes, in about a minute (on the CPU)
+    ///
+    /// Writes explain.json, explain.csv and explain/*.png to DIR: a map for each cause of where it makes indirect light too bright
+    /// or too dark. See docs/explain.md.
+    #[arg(long, conflicts_with_all = ["grid", "runs", "longest"])]
+    pub explain: bool,
     /// Values of a setting to go through (repeatable)
     ///
     /// Without it: lights=64,256,1024,4096, interleave=1,2,4,8 and occlusion=rays,sampled,none, less those that are set by

@@ -15,6 +15,15 @@ pub fn scale(share: f32) -> [u8; 3] {
     oklch(lightness, chroma.min(0.16), hue)
 }
 
+/// Colour of a signed share -1..=1: near black at zero, to pale blue below and to pale orange above, as light on both sides.
+pub fn signed(share: f32) -> [u8; 3] {
+    let t = share.abs().min(1.0);
+    let lightness = 0.15 + 0.8 * t;
+    let chroma = 0.6 * t * (1.05 - t);
+    let hue: f32 = if share < 0.0 { 255.0 } else { 55.0 };
+    oklch(lightness, chroma.min(0.15), hue.to_radians())
+}
+
 /// A colour for the `index`-th of many things: neighbours in the count differ clearly in hue and lightness.
 pub fn category(index: u32) -> [u8; 3] {
     // Steps of the golden angle never repeat; the lightness cycles on its own.
@@ -68,6 +77,21 @@ mod tests {
         assert!(last > 0.9);
         assert_eq!(scale(-1.0), scale(0.0));
         assert_eq!(scale(7.0), scale(1.0));
+    }
+
+    #[test]
+    fn signs_are_equally_light_and_of_other_colours() {
+        for step in 0..=10 {
+            let share = step as f32 / 10.0;
+            let light = |share| {
+                let linear = signed(share).map(|c| srgb::decode(f32::from(c) / 255.0));
+                luminance(linear).cbrt()
+            };
+            assert!((light(share) - light(-share)).abs() < 0.03, "{share}");
+        }
+        let [[r, _, b], [s, _, c]] = [signed(0.6), signed(-0.6)];
+        assert!(r > b && c > s);
+        assert_eq!(signed(-7.0), signed(-1.0));
     }
 
     #[test]

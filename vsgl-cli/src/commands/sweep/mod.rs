@@ -1,6 +1,7 @@
 //! `vsgl sweep`: error against time over a grid of settings, and which of them are worth it.
 
 mod advice;
+mod explain;
 mod grid;
 mod record;
 mod report;
@@ -64,6 +65,9 @@ const HASTY: Depth = Depth {
 /// # Errors
 /// What reading, rendering and writing return; [`Failure::Output`] if the folder holds another sweep.
 pub(super) fn run(args: &SweepArgs) -> Result<()> {
+    if args.sweep.explain {
+        return explain::run(args);
+    }
     let (mut sweep, data) = Sweep::new(args)?;
     let backends = backends(&args.sweep.backend, args.sweep.threads)?;
     let last = backends.len() - 1;
