@@ -111,17 +111,15 @@ fn what_is_not_done_has_no_error() {
 fn what_is_planted_is_found() {
     let folder = Folder::new();
     let mape = |document: &Value, cause: &str| number(&link(document, cause)["pixel"]["mape"]);
-    let usual = split(&folder, "--rsm 64");
-    let none = split(&folder, "--rsm 64 --occlusion none");
+    let usual = split(&folder, "--rsm 64 --lights 64");
+    let none = split(&folder, "--rsm 64 --lights 64 --occlusion none");
     assert!(mape(&none, "occlusion") > 3.0, "light through walls");
     assert!((mape(&none, "visibility") - mape(&usual, "visibility")).abs() < 1e-9);
-    let coarse = split(&folder, "--rsm 8");
+    let coarse = split(&folder, "--rsm 8 --lights 64");
     assert!(mape(&coarse, "rsm") > 2.0 * mape(&usual, "rsm"));
-    let forms = split(&folder, "--rsm 64 --diffuse constant --glossy asg-2013");
-    assert!(mape(&forms, "integral") > 1.2 * mape(&usual, "integral"));
-    assert!((mape(&forms, "emission") - mape(&usual, "emission")).abs() < 0.5);
-    let lobes = split(&folder, "--rsm 64 --emission sg");
-    assert!(mape(&lobes, "emission") > 1.2 * mape(&usual, "emission"));
+    let form = split(&folder, "--rsm 64 --lights 64 --diffuse sg-product");
+    assert!(mape(&form, "integral") > 1.5 * mape(&usual, "integral"));
+    assert!(mape(&form, "emission") < 1.2 * mape(&usual, "emission"));
     let maps = split(&folder, "--rsm 64 --occlusion ism --set map_size=8");
     let larger = split(&folder, "--rsm 64 --occlusion ism --set map_size=32");
     assert!(mape(&maps, "map-size") > mape(&larger, "map-size"));

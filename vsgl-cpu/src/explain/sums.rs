@@ -209,8 +209,8 @@ impl Asked<'_> {
                     exact.seen[half][lane] += share * f64::from(total[lane]);
                 }
             }
-            for lane in 0..LANES {
-                exact.light[lane] += f64::from(total[lane]);
+            for (light, more) in exact.light.iter_mut().zip(total) {
+                *light += f64::from(more);
             }
         }
         exact

@@ -87,3 +87,40 @@ pub fn truth(
         .pool
         .install(|| places.squares.par_iter().map(one).collect())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use vsgl_core::glam::Vec3;
+    use vsgl_core::phase::gbuffer::ray;
+    use vsgl_core::phase::path::camera_ray;
+    use vsgl_core::scene::Camera;
+
+    #[test]
+    fn paths_go_through_the_samples() {
+        let camera = Camera::look_at(Vec3::new(1.0, 2.0, 3.0), Vec3::ZERO, 0.8);
+        for (width, height, aa) in [(16, 9, 1), (640, 360, 2), (1920, 1080, 3), (7, 4096, 1)] {
+            let view = View {
+                camera,
+                width,
+                height,
+                aa,
+                stride: 1,
+            };
+            let samples = [(0, 0), (3 * aa, 2), (width * aa - 1, height * aa - 1)];
+            let places = Places::at_samples(&view, &samples);
+            for (sample, square) in samples.iter().zip(&places.squares) {
+                let wanted = ray(&view, sample.0, sample.1).direction.normalize();
+                for corner in [[0.0, 0.0], [0.5, 0.5], [0.99, 0.99]] {
+                    let found = camera_ray(&places.view, square.0, square.1, corner).direction;
+                    let step = 2.0 * camera.tan_half_fov / (height * aa) as f32;
+                    let apart = (found - wanted).length();
+                    assert!(
+                        apart < 0.02 * step + 1e-6,
+                        "{width}x{height}: {apart} of {step}"
+                    );
+                }
+            }
+        }
+    }
+}

@@ -25,7 +25,7 @@ pub(super) const MORE: u32 = 4;
 /// cores.
 const SECONDS: f64 = 120.0;
 /// Most pixels.
-const PIXELS_MAX: usize = 16_384;
+const PIXELS_MAX: usize = 8192;
 /// Paths through each pixel, both halves together.
 const PATHS: u32 = 8192;
 /// With `--quick`: how many times less of both.
