@@ -17,7 +17,7 @@ Every combination of settings is rendered and timed, and compared with the metho
   sweep.csv      the same as a table
   reference.exr  the truth that the errors are against
   pictures/      a PNG of each combination
-The reference has 512 paths through each pixel, 256 with --quick, or as many as --spp says.
+The reference has 512 paths through each pixel, 256 with --quick, or as many as --spp says; with --explain 8192 and 2048.
 Run the same command again after an interruption: what is there is not done again.";
 
 /// Arguments of `vsgl sweep`.

@@ -3,8 +3,9 @@
 use crate::CpuBackend;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use vsgl_core::data::{LightRecord, SceneData};
+use vsgl_core::data::SceneData;
 use vsgl_core::metrics::luminance;
+use vsgl_core::phase::draw;
 use vsgl_core::phase::path::{World, sample};
 use vsgl_core::plan::PathPlan;
 use vsgl_core::render::{Observer, Phase, View};
@@ -63,7 +64,7 @@ pub fn truth(
     plan: &PathPlan,
     observer: &dyn Observer,
 ) -> Result<Vec<f64>> {
-    let lights: Vec<LightRecord> = lights.iter().map(LightRecord::from).collect();
+    let lights = draw::lights(lights, scene.bounds(), plan.light_sampling);
     let world = World {
         scene,
         lights: &lights,

@@ -26,13 +26,13 @@ pub(super) const MORE: u32 = 4;
 const SECONDS: f64 = 120.0;
 /// Most pixels.
 const PIXELS_MAX: usize = 8192;
-/// Paths through each pixel, both halves together.
+/// Paths through each pixel, both halves together, unless `--spp` says otherwise.
 const PATHS: u32 = 8192;
 /// With `--quick`: how many times less of both.
 const QUICK: u32 = 4;
 /// Texels' light and rays that a core finds in a second, for the estimate of how many points there is time for.
 const TEXELS_A_SECOND: f64 = 50e6;
-const RAYS_A_SECOND: f64 = 3e6;
+const RAYS_A_SECOND: f64 = 2e6;
 const PATHS_A_SECOND: f64 = 1.2e6;
 /// Most texels of all larger shadow maps together.
 const MAP_TEXELS_MAX: u64 = 1 << 26;
@@ -119,7 +119,10 @@ pub(super) fn chain(
     };
     let sets = sets_of(&rsm);
     let less = if quick { QUICK } else { 1 };
-    let paths = PATHS / less;
+    let paths = match job.settings.spp {
+        spp if spp == Settings::default().spp => PATHS / less,
+        spp => spp.max(2),
+    };
     let most = affordable(&sets, vsgls.count, paths, job.view.aa) / less as usize;
     let (width, height) = job.view.pixels();
     let seed = sobol::combine(job.seed as u32, (job.seed >> 32) as u32);
