@@ -34,7 +34,8 @@ pub(crate) fn differences(
         let origin = receiver.position + facing * lift(scene.lift(), receiver.position);
         for (j, (light, target)) in vsgls.diffuse.iter().zip(&vsgls.target).enumerate() {
             let arriving = incoming_diffuse(light, receiver.position, receiver.normal);
-            let weight = f64::from((arriving.strength * lambert_v13(&arriving, &receiver)).y);
+            let weight =
+                f64::from((arriving.strength * lambert_v13(&arriving, &receiver)).element_sum());
             if weight <= 0.0 {
                 continue;
             }

@@ -13,6 +13,9 @@ fn shadow_maps_of_both_kinds() {
         for (scene, settings) in [
             ("cornell", "lights=24 rsm=64 map_points=1024"),
             ("columns", "lights=17 rsm=64 map_size=17 map_points=300"),
+            // Runs of triangles, and runs of so many that some stand for others.
+            ("columns", "lights=9 rsm=64 map_size=16 map_points=200"),
+            ("columns", "lights=8 rsm=64 map_size=32 map_points=3"),
             ("glossy-floor", "lights=8 rsm=32 map_size=8 map_points=1"),
         ] {
             let shot = Shot::sample(scene).with(&format!("{settings} occlusion={kind}"));

@@ -213,7 +213,7 @@ fn every_function_has_a_twin_and_a_test() {
 
 /// Plain functions of whole records, such as a map, a camera or the sums of a cluster, and of indices: every pixel, cluster
 /// and round of the phases compares them.
-const COMPARED_AS_PHASES: [&str; 56] = [
+const COMPARED_AS_PHASES: [&str; 63] = [
     "bsdf_density",
     "bsdf_evaluate",
     "bsdf_is_black",
@@ -228,6 +228,9 @@ const COMPARED_AS_PHASES: [&str; 56] = [
     "draw_chance",
     "emit_point",
     "emit_texel",
+    "facet_bounds",
+    "facet_meet",
+    "facet_new",
     "fill_before",
     "fill_pull",
     "fill_push",
@@ -254,12 +257,16 @@ const COMPARED_AS_PHASES: [&str; 56] = [
     "pdf_top_level",
     "reconstruct_ahead",
     "rsm_ray",
+    "run_is_apart",
+    "run_of",
+    "run_wide",
     "sampled_offset",
     "shares_count",
     "shares_sample",
     "shares_share",
     "splat_depth",
     "splat_draw",
+    "splat_middle",
     "splat_new",
     "splat_number",
     "splat_piece",

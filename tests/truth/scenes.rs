@@ -21,8 +21,6 @@ struct Limits {
 const SHARES: f64 = 2.0;
 const DRAWN: f64 = 1.2;
 const MAPS: f64 = 1.5;
-/// Views of rooms of few large triangles, where shadow maps keep to that; see `docs/shadow-maps.md` for the others.
-const MAPPED: [&str; 2] = ["room_spot", "cornell"];
 
 fn view(name: &str, limits: &Limits) {
     let Some(_) = assets("ground-truth", &format!("the view {name}")) else {
@@ -56,13 +54,11 @@ fn view(name: &str, limits: &Limits) {
                 "{name}: MAPE {drawn:.2} % by eight rays, {mape:.2} % by all"
             );
             for maps in ["ism", "ism-tessellated"] {
-                if MAPPED.contains(&name) {
-                    let (_, mapped, _) = render(&format!("occlusion={maps}"), kind);
-                    assert!(
-                        mapped <= MAPS * mape,
-                        "{name}: MAPE {mapped:.2} % by {maps}, {mape:.2} % by rays"
-                    );
-                }
+                let (_, mapped, _) = render(&format!("occlusion={maps}"), kind);
+                assert!(
+                    mapped <= MAPS * mape,
+                    "{name}: MAPE {mapped:.2} % by {maps}, {mape:.2} % by rays"
+                );
             }
         }
         assert!(mape <= limit[0], "{name} {occlusion}: MAPE {mape:.2} %");

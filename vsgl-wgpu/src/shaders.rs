@@ -82,6 +82,7 @@ pub const MODULES: &[(&str, &str)] = modules![
     "phase/emit",
     "phase/facing",
     "phase/fill",
+    "phase/facet",
     "phase/filtered",
     "phase/filtered_box",
     "phase/footprint",
@@ -100,6 +101,7 @@ pub const MODULES: &[(&str, &str)] = modules![
     "phase/reflect",
     "phase/resolve",
     "phase/rsm",
+    "phase/run",
     "phase/sampled",
     "phase/shade",
     "phase/splat",
@@ -178,9 +180,9 @@ const fn words<T>() -> u32 {
 fn header() -> String {
     use vsgl_core::data::{self, map_kind};
     use vsgl_core::phase::{
-        bsdf, cluster, direct, draw, facing, fill, filtered_box, footprint, importance, interleave,
-        nearest, normal_map, occlusion, partition, path, pdf, reconstruct, rsm, sampled, shade,
-        splat, surface, texture, whole,
+        bsdf, cluster, direct, draw, facet, facing, fill, filtered_box, footprint, importance,
+        interleave, nearest, normal_map, occlusion, partition, path, pdf, reconstruct, rsm, run,
+        sampled, shade, splat, surface, texture, whole,
     };
     let floats: &[(&str, f32)] = &[
         ("ALPHA_MIN", surface::ALPHA_MIN),
@@ -214,8 +216,11 @@ fn header() -> String {
         ("SLOPE_MAX", reconstruct::SLOPE_MAX),
         ("TURN_MAX", reconstruct::TURN_MAX),
         ("ROUGHNESS_FALL", reconstruct::ROUGHNESS_FALL),
+        ("FACET_STEEPEST", facet::STEEPEST),
+        ("FACET_WIDEST", facet::WIDEST),
         ("FILL_CONSISTENT", fill::CONSISTENT),
         ("OCCLUSION_BIAS", occlusion::BIAS),
+        ("RUN_APART", run::APART),
         ("SPLAT_BACK", splat::BACK),
         ("SPLAT_OVERLAP", splat::OVERLAP),
         ("SPLAT_PIECES", splat::PIECES),
@@ -256,6 +261,8 @@ fn header() -> String {
         ("STEP_X", sampled::STEP_X),
         ("STEP_Y", sampled::STEP_Y),
         ("RAYS_MAX", vsgl_core::settings::Settings::RAYS_MAX),
+        ("RUN_DRAWS", run::DRAWS),
+        ("RUN_MAX", run::RUN_MAX),
         ("SPLAT_PIECES_MAX", splat::PIECES_MAX),
     ];
     let mut text = String::new();

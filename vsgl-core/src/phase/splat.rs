@@ -14,7 +14,7 @@ pub const REACH: f32 = 8.0;
 pub const OVERLAP: f32 = 2.0;
 /// By how much discs larger than their triangle are set back, in radii: such a disc leaves the surface.
 pub const BACK: f32 = 0.5;
-/// Texels of a map for a radian, at most, in units of its side: at the pole, along a diagonal of the diamond.
+/// Texels of a map for a radian, in units of its side: at the pole, along a diagonal of the diamond.
 pub const TEXELS_A_RADIAN: f32 = 0.71;
 /// Pieces of a triangle for each texel that it covers.
 pub const PIECES: f32 = 2.0;
@@ -172,6 +172,17 @@ pub fn piece(slot: &Slot, index: u32) -> Point {
         v: across / cuts,
         area: slot.area,
         clip: slot.everywhere,
+    }
+}
+
+/// The middle of a triangle that stands for `count` of its size.
+#[inline(always)]
+pub fn middle(count: u32) -> Point {
+    Point {
+        u: THIRD,
+        v: THIRD,
+        area: number(count),
+        clip: false,
     }
 }
 

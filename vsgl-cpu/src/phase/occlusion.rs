@@ -2,15 +2,25 @@
 
 use super::block::{LANES, Vec3Lanes};
 use glam::Vec3;
+use multiversion::multiversion;
 use rayon::prelude::*;
 use vsgl_core::data::{Occlusion, SceneData, Target, Vsgls};
+use vsgl_core::phase::facet::{self, Facet};
 use vsgl_core::phase::occlusion::{self, MapFrame, OPEN, Probe};
+use vsgl_core::phase::run::{self, Run};
 use vsgl_core::phase::splat::{self, Point, Splat};
 use vsgl_core::phase::{fill, mask};
 use vsgl_core::plan::OcclusionPlan;
 
 pub(crate) fn run(scene: &SceneData, vsgls: &Vsgls, plan: &OcclusionPlan) -> Occlusion {
-    let texels = plan.side as usize * plan.side as usize;
+    let side = plan.side;
+    let texels = side as usize * side as usize;
+    let stride = splat::stride(plan.points);
+    let run = |index| Run::new(&scene.share, &scene.corner, index, plan.points, stride);
+    let runs: Vec<Run> = (0..plan.points).into_par_iter().map(run).collect();
+    let step = 2.0 / side as f32;
+    let direction = |i| occlusion::direction(i % side, i / side, step);
+    let directions: Vec<Vec3> = (0..side * side).map(direction).collect();
     let mut depth = vec![OPEN; texels * vsgls.target.len()];
     depth
         .par_chunks_mut(texels)
@@ -22,13 +32,15 @@ pub(crate) fn run(scene: &SceneData, vsgls: &Vsgls, plan: &OcclusionPlan) -> Occ
                 plan,
                 index: index as u32,
                 frame: MapFrame::new(target, scene.lift()),
+                runs: &runs,
+                directions: &directions,
             };
-            map.draw(depth);
-            fill_holes(depth, plan.side);
+            draw(&map, depth);
+            fill_holes(depth, side);
         });
     Occlusion {
         maps: vsgls.target.len() as u32,
-        side: plan.side,
+        side,
         depth,
     }
 }
@@ -38,10 +50,27 @@ struct Map<'a> {
     plan: &'a OcclusionPlan,
     index: u32,
     frame: MapFrame,
+    runs: &'a [Run],
+    /// Directions of the middles of the texels.
+    directions: &'a [Vec3],
+}
+
+/// What a map holds before its holes are filled.
+#[multiversion(targets("x86_64+avx2+fma", "aarch64+neon"))]
+fn draw(map: &Map<'_>, depth: &mut [f32]) {
+    let mut apart = vec![false; map.runs.len()];
+    for (run, apart) in map.runs.iter().zip(&mut apart) {
+        *apart = run.is_apart(&map.frame, map.plan.side);
+        if *apart {
+            map.triangles(depth, run);
+        }
+    }
+    map.points(depth, &apart);
 }
 
 impl Map<'_> {
-    fn draw(&self, depth: &mut [f32]) {
+    #[inline(always)]
+    fn points(&self, depth: &mut [f32], apart: &[bool]) {
         let (share, map) = (&self.scene.share, self.index);
         let stride = splat::stride(self.plan.points);
         let mut triangle = 0;
@@ -58,6 +87,11 @@ impl Map<'_> {
                 share[triangle - 1]
             };
             let high = share[triangle];
+            if !run::wide(low, high, stride)
+                && apart[run::of(low, stride, self.plan.points) as usize]
+            {
+                continue;
+            }
             let corners = splat::corners(&self.frame, &self.scene.corner[triangle]);
             if self.plan.tessellated {
                 let side = self.plan.side;
@@ -74,6 +108,42 @@ impl Map<'_> {
         }
     }
 
+    #[inline(always)]
+    fn triangles(&self, depth: &mut [f32], run: &Run) {
+        for i in 0..run.count {
+            let triangle = (run.first + i * run.every) as usize;
+            let corners = splat::corners(&self.frame, &self.scene.corner[triangle]);
+            if run.every > 1 {
+                self.point(depth, triangle, &corners, &splat::middle(run.every));
+            } else {
+                self.facet(depth, triangle, &corners);
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn facet(&self, depth: &mut [f32], triangle: usize, corners: &[Vec3; 3]) {
+        let side = self.plan.side;
+        let bounds = facet::bounds(corners, side);
+        if bounds.left == bounds.right || bounds.top == bounds.bottom {
+            return;
+        }
+        let facet = Facet::new(corners);
+        for row in bounds.top..bounds.bottom {
+            for column in bounds.left..bounds.right {
+                let at = (row * side + column) as usize;
+                let met = facet.meet(self.directions[at]);
+                let there = |met: &facet::Meeting| {
+                    !self.plan.masks || mask::covers(self.scene, triangle as u32, met.u, met.v)
+                };
+                if met.depth < depth[at] && there(&met) {
+                    depth[at] = met.depth;
+                }
+            }
+        }
+    }
+
+    #[inline(always)]
     fn point(&self, depth: &mut [f32], triangle: usize, corners: &[Vec3; 3], point: &Point) {
         let side = self.plan.side;
         let splat = Splat::new(corners, point, side);

@@ -1,5 +1,5 @@
-//! needs: data/index, data/vsgls_read, phase/fill, phase/mask, phase/splat
-// Shadow maps of the clusters: emptied, points drawn into them, holes filled.
+//! needs: data/index, data/vsgls_read, phase/facet, phase/fill, phase/mask, phase/run, phase/splat
+// Shadow maps of the clusters: emptied, triangles and points drawn into them, holes filled.
 
 override MASKS: bool = true;
 
@@ -18,6 +18,8 @@ struct Params {
     level: u32,
     first: u32,
     draws: u32,
+    // Invocations that share out the triangles of a run.
+    parts: u32,
 }
 
 struct Count {
@@ -37,6 +39,8 @@ struct Count {
 // Smaller images of all maps, level by level.
 @group(0) @binding(9) var<storage, read_write> smaller: array<f32>;
 @group(0) @binding(10) var<storage, read_write> count_out: array<u32>;
+@group(0) @binding(11) var<storage, read_write> runs_out: array<Run>;
+@group(0) @binding(12) var<storage, read> runs: array<Run>;
 
 @compute @workgroup_size(INVOCATIONS)
 fn empty(
@@ -57,6 +61,17 @@ fn frame_of(map: u32) -> MapFrame {
     return map_frame_new(point.position, point.normal, params.lift);
 }
 
+@compute @workgroup_size(INVOCATIONS)
+fn bundle(
+    @builtin(global_invocation_id) invocation: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+) {
+    let i = item_index(invocation, groups);
+    if i < params.points {
+        runs_out[i] = run_new(params.triangles, i, params.points, params.stride);
+    }
+}
+
 fn write(map: u32, triangle: u32, corners: Corners, point: Point) {
     let splat = splat_new(corners, point, params.side);
     if !splat.above || !mask_covers(triangle, point.u, point.v) {
@@ -71,6 +86,48 @@ fn write(map: u32, triangle: u32, corners: Corners, point: Point) {
             if found < F32_MAX {
                 atomicMin(&bits[(map * params.side + row) * params.side + column], bitcast<u32>(found));
             }
+        }
+    }
+}
+
+fn write_facet(map: u32, triangle: u32, corners: Corners) {
+    let bounds = facet_bounds(corners, params.side);
+    let facet = facet_new(corners);
+    let step = 2.0 / f32(params.side);
+    for (var row = bounds.top; row < bounds.bottom; row++) {
+        for (var column = bounds.left; column < bounds.right; column++) {
+            let met = facet_meet(facet, occlusion_direction(column, row, step));
+            if met.depth < F32_MAX && mask_covers(triangle, met.u, met.v) {
+                atomicMin(&bits[(map * params.side + row) * params.side + column], bitcast<u32>(met.depth));
+            }
+        }
+    }
+}
+
+@compute @workgroup_size(INVOCATIONS)
+fn triangles(
+    @builtin(global_invocation_id) invocation: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+) {
+    let i = item_index(invocation, groups);
+    let of_map = i / params.parts;
+    let map = of_map / params.draws;
+    let index = params.first + of_map % params.draws;
+    if map >= min(params.maps, clusters.value) || index >= params.points {
+        return;
+    }
+    let run = runs[index];
+    let frame = frame_of(map);
+    if !run_is_apart(run, frame, params.side) {
+        return;
+    }
+    for (var k = i % params.parts; k < run.count; k += params.parts) {
+        let triangle = run.first + k * run.every;
+        let corners = splat_corners(frame, triangle);
+        if run.every > 1u {
+            write(map, triangle, corners, splat_middle(run.every));
+        } else {
+            write_facet(map, triangle, corners);
         }
     }
 }
@@ -105,6 +162,15 @@ fn drawn_by(i: u32) -> Drawn {
     return made;
 }
 
+// Whether the triangle of a draw is not drawn itself.
+fn stands(d: Drawn, frame: MapFrame) -> bool {
+    if run_wide(d.low, d.high, params.stride) {
+        return true;
+    }
+    let run = runs[run_of(d.low, params.stride, params.points)];
+    return !run_is_apart(run, frame, params.side);
+}
+
 @compute @workgroup_size(INVOCATIONS)
 fn points(
     @builtin(global_invocation_id) invocation: vec3<u32>,
@@ -114,7 +180,11 @@ fn points(
     if !d.found {
         return;
     }
-    let corners = splat_corners(frame_of(d.map), d.triangle);
+    let frame = frame_of(d.map);
+    if !stands(d, frame) {
+        return;
+    }
+    let corners = splat_corners(frame, d.triangle);
     let point = splat_random_point(d.map, d.index, d.draw, d.low, d.high, params.stride);
     write(d.map, d.triangle, corners, point);
 }
@@ -128,7 +198,11 @@ fn pieces(
     if !d.found {
         return;
     }
-    let corners = splat_corners(frame_of(d.map), d.triangle);
+    let frame = frame_of(d.map);
+    if !stands(d, frame) {
+        return;
+    }
+    let corners = splat_corners(frame, d.triangle);
     let slot = splat_slot(d.map, d.index, d.low, d.high, params.stride, corners, params.side);
     for (var piece = slot.first; piece < slot.cuts * slot.cuts; piece += slot.slots) {
         write(d.map, d.triangle, corners, splat_piece(slot, piece));

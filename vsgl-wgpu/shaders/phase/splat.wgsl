@@ -114,6 +114,11 @@ fn splat_piece(slot: Slot, index: u32) -> Point {
     return Point((along - across) / cuts, across / cuts, slot.area, slot.everywhere);
 }
 
+// The middle of a triangle that stands for `count` of its size.
+fn splat_middle(count: u32) -> Point {
+    return Point(SPLAT_THIRD, SPLAT_THIRD, splat_number(count), false);
+}
+
 struct Splat {
     point: vec3<f32>,
     distance: f32,

@@ -8,12 +8,18 @@ use crate::res::WgpuRes;
 use bytemuck::{Pod, Zeroable};
 use vsgl_core::Result;
 use vsgl_core::data::{Occlusion, SceneData, SpecularVsgl, Vsgls};
-use vsgl_core::phase::{fill, splat};
+use vsgl_core::phase::{fill, run, splat};
 use vsgl_core::plan::OcclusionPlan;
 
 /// Points in one dispatch, about: as `passes/shade.rs` has it for pairs.
 const POINTS_GPU: u64 = 1 << 26;
 const POINTS_SOFTWARE: u64 = 1 << 22;
+
+/// Triangles of a run that one invocation draws, about: with all texels that each may cover, fewer rounds of a shader's loops
+/// than lavapipe runs.
+const TRIANGLES: u32 = 8;
+/// Bytes of a `Run` in a buffer.
+const RUN_BYTES: u64 = 32;
 
 /// Twin of `Params` in `entry/occlusion.wgsl`.
 #[repr(C)]
@@ -29,6 +35,14 @@ struct Params {
     level: u32,
     first: u32,
     draws: u32,
+    parts: u32,
+}
+
+/// Invocations for the triangles of a run. Half of the shares go to all triangles alike, so that few runs are longer than twice
+/// the mean; each invocation goes on until its run ends.
+fn parts(triangles: u64, points: u32) -> u32 {
+    let long = 2 * triangles / u64::from(points.max(1)) + 1;
+    (long.min(u64::from(run::RUN_MAX)) as u32).div_ceil(TRIANGLES)
 }
 
 fn constants(plan: &OcclusionPlan) -> [Constant; 1] {
@@ -45,6 +59,8 @@ pub(crate) fn kernels(plan: &OcclusionPlan) -> Vec<KernelId> {
     let kernel = |entry, constants: &[Constant]| KernelId::new("entry/occlusion", entry, constants);
     vec![
         kernel("empty", &[]),
+        kernel("bundle", &[]),
+        kernel("triangles", &constants(plan)),
         kernel(drawing(plan), &constants(plan)),
         kernel("pull", &[]),
         kernel("push", &[]),
@@ -85,7 +101,12 @@ pub(crate) fn record(
         level: 0,
         first: 0,
         draws: 0,
+        parts: parts(scene.len("share"), plan.points),
     };
+    let runs = context.buffer(
+        "runs of triangles",
+        RUN_BYTES * u64::from(plan.points.max(1)),
+    )?;
     let mut bound = vec![
         ("corner", scene.bind("corner")),
         ("share", scene.bind("share")),
@@ -95,6 +116,8 @@ pub(crate) fn record(
         ("depth", made.bind("depth")),
         ("smaller", Binding::Buffer(&smaller)),
         ("count_out", Binding::Buffer(&count)),
+        ("runs_out", Binding::Buffer(&runs)),
+        ("runs", Binding::Buffer(&runs)),
     ];
     bound.extend(words(scene));
     let kernel =
@@ -104,26 +127,28 @@ pub(crate) fn record(
         Groups::Items(maps * own * own)
     };
     recorder.dispatch(&*kernel("empty", &[])?, &params, &bound, texels(0))?;
-    let draw = kernel(drawing(plan), &constants(plan))?;
+    let bundle = kernel("bundle", &[])?;
+    recorder.dispatch(&bundle, &params, &bound, Groups::Items(plan.points.into()))?;
     let software = is_software(context.info());
     let most = if software {
         POINTS_SOFTWARE
     } else {
         POINTS_GPU
     };
-    let draws = (most / maps.max(1)).clamp(1, u64::from(plan.points).max(1)) as u32;
-    for first in (0..plan.points).step_by(draws as usize) {
-        let params = Params {
-            first,
-            draws,
-            ..params
-        };
-        recorder.dispatch(
-            &draw,
-            &params,
-            &bound,
-            Groups::Items(maps * u64::from(draws)),
-        )?;
+    let ways = [("triangles", params.parts), (drawing(plan), 1)];
+    for (entry, parts) in ways {
+        let draw = kernel(entry, &constants(plan))?;
+        let together = maps.max(1) * u64::from(parts);
+        let draws = (most / together).clamp(1, u64::from(plan.points).max(1)) as u32;
+        for first in (0..plan.points).step_by(draws as usize) {
+            let params = Params {
+                first,
+                draws,
+                ..params
+            };
+            let items = together * u64::from(draws);
+            recorder.dispatch(&draw, &params, &bound, Groups::Items(items))?;
+        }
     }
     let (pull, push) = (kernel("pull", &[])?, kernel("push", &[])?);
     for level in 1..=fill::LEVELS {
@@ -158,7 +183,8 @@ mod tests {
                 triangles,
                 level,
                 first,
-                draws
+                draws,
+                parts
             }
         );
     }
