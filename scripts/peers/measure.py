@@ -17,7 +17,10 @@ REPEAT = 3
 ENOUGH = 4.0  # CPU seconds of one setting after which it is not repeated
 FEW_SPP = 16  # up to which peers repeat a picture; longer ones are once more than the first, which warms up
 PACKAGES = {"mitsuba": "mitsuba", "cycles": "bpy"}
-TEXTS = {"mitsuba": [HERE / "surface.py", HERE / "denoiser.py"], "cycles": []}
+FILES = {
+    "mitsuba": [HERE / f"{name}.py" for name in ("mitsuba_peer", "surface", "denoiser")],
+    "cycles": [HERE / "cycles_peer.py"],
+}
 
 
 class View:
@@ -34,7 +37,11 @@ class View:
         self.folder.mkdir(parents=True, exist_ok=True)
 
     def key(self, method, **settings):
-        return {"scene": self.name, "size": list(self.size), "threads": self.threads, "method": method, **settings}
+        """What a result is known by; where the reference is made, that too."""
+        out = {"scene": self.name, "size": list(self.size), "threads": self.threads, "method": method, **settings}
+        if self.size != self.native:
+            out["reference"] = fingerprint(*FILES["mitsuba"]) + f" {2 * REFERENCE_SPP}"
+        return out
 
     def reference(self, layer):
         if self.size == self.native:
@@ -149,8 +156,7 @@ class Peers:
 
     def about(self, program):
         """What other figures would come from."""
-        files = [HERE / f"{program}_peer.py", *TEXTS[program]]
-        return {"version": self.pins[PACKAGES[program]], "code": fingerprint(*files)}
+        return {"version": self.pins[PACKAGES[program]], "code": fingerprint(*FILES[program])}
 
     def ask(self, program, job):
         done = run([self.python, HERE / f"{program}_peer.py"], input=json.dumps(job), env=self.variables)
@@ -180,7 +186,7 @@ class Peers:
 
     def make_reference(self):
         """Where the ground truth has another size: a reference by Mitsuba in two halves, from which its noise is known."""
-        key = self.view.key("reference", spp=2 * REFERENCE_SPP, **self.about("mitsuba"))
+        key = self.view.key("reference", version=self.pins["mitsuba"])
         if (found := self.store.get(key)) and self.view.reference("indirect").exists():
             return found
         folder = self.view.folder
