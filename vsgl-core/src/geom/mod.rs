@@ -1,6 +1,7 @@
 //! Rays, triangles and the hierarchy over them.
 
 mod build;
+mod order;
 mod overlap;
 mod ray;
 mod traverse;

@@ -1,9 +1,10 @@
 //! Walking the hierarchy.
 
+use super::order::{greater, lesser};
 use super::ray::Ray;
 use super::triangle::{Crossing, cross};
 use crate::data::{Element, NO_TRIANGLE, Scalar};
-use glam::Vec3;
+use glam::{Vec3, Vec3A};
 
 /// By how much exits from boxes are moved outwards: more than the rounding of the slab test.
 pub const SLAB_EXIT: f32 = 1.000_000_4;
@@ -80,13 +81,51 @@ impl Covers for Opaque {
 fn slab(node: &BvhNode, ray: &Ray) -> (f32, f32) {
     let low = (Vec3::from_array(node.min) - ray.origin) * ray.inverse;
     let high = (Vec3::from_array(node.max) - ray.origin) * ray.inverse;
-    let (near, far) = (low.min(high), low.max(high));
-    let entry = near.x.max(near.y).max(near.z);
-    let exit = far.x.min(far.y).min(far.z);
+    let entry = greater(
+        greater(lesser(low.x, high.x), lesser(low.y, high.y)),
+        lesser(low.z, high.z),
+    );
+    let exit = lesser(
+        lesser(greater(low.x, high.x), greater(low.y, high.y)),
+        greater(low.z, high.z),
+    );
     (entry, exit * SLAB_EXIT)
 }
 
+/// A ray as its box tests take it: three numbers in one register.
+struct Wide {
+    origin: Vec3A,
+    inverse: Vec3A,
+}
+
+impl Wide {
+    fn new(ray: &Ray) -> Self {
+        Self {
+            origin: ray.origin.into(),
+            inverse: ray.inverse.into(),
+        }
+    }
+
+    /// [`slab`], with the same bits.
+    #[inline(always)]
+    fn slab(&self, node: &BvhNode) -> (f32, f32) {
+        let low = (Vec3A::from_array(node.min) - self.origin) * self.inverse;
+        let high = (Vec3A::from_array(node.max) - self.origin) * self.inverse;
+        let (near, far) = (low.min(high), low.max(high));
+        (near.max_element(), far.min_element() * SLAB_EXIT)
+    }
+}
+
+/// Whether a ray that ends at `t_max` meets a box that it enters and leaves there.
+#[inline(always)]
+fn meets((entry, exit): (f32, f32), t_max: f32) -> bool {
+    !((entry > exit) | (exit < 0.0) | (entry > t_max))
+}
+
 /// Nearest crossing with `0 < t < t_max`; of equal ones that with the lower triangle id.
+///
+/// Boxes are entered in the order in which the shader enters them, by the same tests; each is tested once here, and a box with a
+/// nearer crossing in front of it is left out by the entry that was kept.
 pub fn closest_hit<C: Covers>(
     nodes: &[BvhNode],
     corners: &[[f32; 9]],
@@ -100,37 +139,52 @@ pub fn closest_hit<C: Covers>(
         u: 0.0,
         v: 0.0,
     };
-    let mut stack = [0u32; STACK];
-    let mut held = usize::from(!nodes.is_empty());
+    let wide = Wide::new(ray);
+    let mut stack = [(0u32, 0.0f32); STACK];
+    let mut held = 0;
+    if let Some(root) = nodes.first() {
+        let slab = wide.slab(root);
+        if meets(slab, t_max) {
+            stack[0] = (0, slab.0);
+            held = 1;
+        }
+    }
     while held > 0 {
         held -= 1;
-        let node = &nodes[stack[held] as usize];
-        let (entry, exit) = slab(node, ray);
-        if entry > exit || exit < 0.0 || entry > hit.t {
+        let (at, entry) = stack[held];
+        if entry > hit.t {
             continue;
         }
-        if node.count == 0 {
+        let mut node = &nodes[at as usize];
+        while node.count == 0 {
             let (left, right) = (node.first, node.first + 1);
-            let left_entry = slab(&nodes[left as usize], ray).0;
-            let right_entry = slab(&nodes[right as usize], ray).0;
-            // The nearer child is walked first, the left one if neither is.
-            let (near, far) = if right_entry < left_entry {
-                (right, left)
-            } else {
-                (left, right)
-            };
-            stack[held] = far;
-            stack[held + 1] = near;
-            held += 2;
-        } else {
-            for triangle in node.first..node.first + node.count {
-                let found = cross(ray.origin, ray.direction, &corners[triangle as usize]);
-                let Crossing { t, u, v, .. } = found;
-                let nearer = t < hit.t
-                    || (t == hit.t && triangle < hit.triangle && hit.triangle != NO_TRIANGLE);
-                if found.hit && t > 0.0 && nearer && (C::ALWAYS || covers.covers(triangle, u, v)) {
-                    hit = Hit { triangle, t, u, v };
+            let (left_node, right_node) = (&nodes[left as usize], &nodes[right as usize]);
+            let (left_slab, right_slab) = (wide.slab(left_node), wide.slab(right_node));
+            node = match (meets(left_slab, hit.t), meets(right_slab, hit.t)) {
+                // The nearer child is walked first, the left one if neither is.
+                (true, true) if right_slab.0 < left_slab.0 => {
+                    stack[held] = (left, left_slab.0);
+                    held += 1;
+                    right_node
                 }
+                (true, true) => {
+                    stack[held] = (right, right_slab.0);
+                    held += 1;
+                    left_node
+                }
+                (true, false) => left_node,
+                (false, true) => right_node,
+                (false, false) => break,
+            };
+        }
+        // Of an inner node without a child on the way nothing is left.
+        for triangle in node.first..node.first + node.count {
+            let found = cross(ray.origin, ray.direction, &corners[triangle as usize]);
+            let Crossing { t, u, v, .. } = found;
+            let nearer =
+                t < hit.t || (t == hit.t && triangle < hit.triangle && hit.triangle != NO_TRIANGLE);
+            if found.hit && t > 0.0 && nearer && (C::ALWAYS || covers.covers(triangle, u, v)) {
+                hit = Hit { triangle, t, u, v };
             }
         }
     }
@@ -145,26 +199,37 @@ pub fn any_hit<C: Covers>(
     t_max: f32,
     covers: &C,
 ) -> bool {
+    let wide = Wide::new(ray);
     let mut stack = [0u32; STACK];
-    let mut held = usize::from(!nodes.is_empty());
+    let mut held = usize::from(
+        nodes
+            .first()
+            .is_some_and(|root| meets(wide.slab(root), t_max)),
+    );
     while held > 0 {
         held -= 1;
-        let node = &nodes[stack[held] as usize];
-        let (entry, exit) = slab(node, ray);
-        if entry > exit || exit < 0.0 || entry > t_max {
-            continue;
-        }
-        if node.count == 0 {
-            stack[held] = node.first + 1;
-            stack[held + 1] = node.first;
-            held += 2;
-        } else {
-            for triangle in node.first..node.first + node.count {
-                let found = cross(ray.origin, ray.direction, &corners[triangle as usize]);
-                let Crossing { hit, t, u, v } = found;
-                if hit && t > 0.0 && t < t_max && (C::ALWAYS || covers.covers(triangle, u, v)) {
-                    return true;
+        let mut node = &nodes[stack[held] as usize];
+        while node.count == 0 {
+            let (left, right) = (node.first, node.first + 1);
+            let (left_node, right_node) = (&nodes[left as usize], &nodes[right as usize]);
+            let left_met = meets(wide.slab(left_node), t_max);
+            let right_met = meets(wide.slab(right_node), t_max);
+            node = match (left_met, right_met) {
+                (true, true) => {
+                    stack[held] = right;
+                    held += 1;
+                    left_node
                 }
+                (true, false) => left_node,
+                (false, true) => right_node,
+                (false, false) => break,
+            };
+        }
+        for triangle in node.first..node.first + node.count {
+            let found = cross(ray.origin, ray.direction, &corners[triangle as usize]);
+            let Crossing { hit, t, u, v } = found;
+            if hit && t > 0.0 && t < t_max && (C::ALWAYS || covers.covers(triangle, u, v)) {
+                return true;
             }
         }
     }

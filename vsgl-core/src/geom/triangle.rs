@@ -1,5 +1,6 @@
 //! Where a ray crosses a triangle.
 
+use super::order::{greater, lesser};
 use glam::Vec3;
 
 /// A crossing of a ray and a triangle.
@@ -31,8 +32,8 @@ pub fn cross(origin: Vec3, direction: Vec3, corner: &[f32; 9]) -> Crossing {
     let at_a = (c - b).cross(c + b).dot(direction);
     let at_b = (a - c).cross(a + c).dot(direction);
     let at_c = (b - a).cross(b + a).dot(direction);
-    let least = at_a.min(at_b).min(at_c);
-    let most = at_a.max(at_b).max(at_c);
+    let least = lesser(lesser(at_a, at_b), at_c);
+    let most = greater(greater(at_a, at_b), at_c);
     let normal = (b - a).cross(c - a);
     let across = normal.dot(direction);
     let volume = at_a + at_b + at_c;
