@@ -1,5 +1,6 @@
 //! needs: data/scene, geom/hit, geom/ray, geom/triangle, phase/mask
-// Walking the hierarchy. Twin of `vsgl-core/src/geom/traverse.rs`.
+// Walking the hierarchy. Twin of `vsgl-core/src/geom/traverse.rs`, which tests each box once and keeps its entry: the same boxes in
+// the same order.
 //
 // Reads `node` and `corner`, which the entry binds.
 
