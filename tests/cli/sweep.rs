@@ -36,7 +36,15 @@ fn a_sweep_leaves_its_points_and_is_not_done_twice() {
     folder.write("s/sweep.jsonl", kept.join("\n") + "\n{\"id\": \"cut sh");
     let again = folder.run(&format!("{SWEEP} -o s --json")).json();
     let again = again["points"].as_array().expect("a list");
-    assert_eq!(again[..3], points[..3]);
+    for (again, point) in again.iter().zip(&points).take(3) {
+        // Whether it is on the front depends on the time of the one that was measured anew.
+        let kept = |point: &Value| {
+            let mut point = point.clone();
+            point["front"].take();
+            point
+        };
+        assert_eq!(kept(again), kept(point));
+    }
     assert_eq!(again[3]["id"], points[3]["id"]);
     assert_eq!(again[3]["errors"], points[3]["errors"]);
     assert_eq!(folder.bytes("s/reference.exr"), reference);
