@@ -29,6 +29,16 @@ fn a_sweep_leaves_its_points_and_is_not_done_twice() {
     let table = String::from_utf8(folder.bytes("s/sweep.csv")).expect("text");
     assert_eq!(table.lines().count(), 5);
     let reference = folder.bytes("s/reference.exr");
+    let page = String::from_utf8(folder.bytes("s/report.html")).expect("text");
+    for point in &points {
+        let row = format!("<tr data-id=\"{}\">", point["id"].as_str().expect("text"));
+        // In the table of all, and in that of the front if it is there.
+        let tables = 1 + usize::from(point["front"] == true);
+        assert_eq!(page.matches(&row).count(), tables, "{row}");
+    }
+    // The usual value of a setting that other points state.
+    assert!(page.contains("<th scope=\"col\">interleave</th>") && page.contains("<td>1</td>"));
+    assert!(page.contains("id=\"reference\""));
 
     // One point is lost and measured anew; the others stay as they were.
     let lines = String::from_utf8(folder.bytes("s/sweep.jsonl")).expect("text");

@@ -3,6 +3,7 @@
 mod advice;
 mod explain;
 mod grid;
+mod page;
 mod record;
 mod report;
 
@@ -286,7 +287,7 @@ impl<'a> Sweep<'a> {
         let errors = Layers::of(&picture)?.errors(&reference.layers, &SIDES)?;
         let mut words = ["vsgl", "render"].map(String::from).to_vec();
         words.extend(self.job.words_for(&combination.settings));
-        words.extend(["--backend".into(), backend.into()]);
+        words.extend(["--backend", backend, "-o", "picture.png"].map(String::from));
         let command = text::shell(&words);
         let file = format!("{PICTURES}/{id}.png");
         let pixels = picture.rgb("").unwrap_or_default();
@@ -341,6 +342,7 @@ impl<'a> Sweep<'a> {
         self.records.write()?;
         self.records.write_table()?;
         let document = self.document(&advice);
+        self.write_page(&document)?;
         if self.args.sweep.json {
             return text::print_json(&document);
         }

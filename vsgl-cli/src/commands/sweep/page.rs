@@ -107,11 +107,18 @@ fn header(document: &Value, title: &str) -> String {
     }
     let machine = &document["machine"];
     let processor = words(machine, "processor");
-    let threads = machine["threads"].as_u64().map(|n| count(n, "thread"));
-    let machine = [Some(processor.to_owned()).filter(|p| !p.is_empty()), threads];
+    let of = |key: &str, one: &str| machine[key].as_u64().map(|n| count(n, one));
+    let threads = of("threads", "thread").or_else(|| of("cores", "core"));
+    let machine = [
+        Some(processor.to_owned()).filter(|p| !p.is_empty()),
+        threads,
+    ];
     let machine: Vec<_> = machine.into_iter().flatten().collect();
     facts.push(machine.join(", "));
-    facts.extend([words(document, "date").into(), words(document, "software").into()]);
+    facts.extend([
+        words(document, "date").into(),
+        words(document, "software").into(),
+    ]);
     let facts = facts.iter().filter(|f| !f.is_empty());
     let facts: Vec<_> = facts.map(|f| format!("<li>{}</li>", escape(f))).collect();
     let mut html = format!(
@@ -144,24 +151,35 @@ fn unfinished(document: &Value) -> Option<String> {
 
 fn advice(document: &Value, choice: &Choice) -> String {
     let advised = document["advice"].as_array().map_or(&[][..], Vec::as_slice);
-    let mut cards = String::new();
+    // One card a point, whatever it is good for.
+    let mut cards: Vec<(&str, Vec<&str>)> = Vec::new();
     for entry in advised {
-        let Some(point) = point(document, words(entry, "id")) else {
+        let (id, purpose) = (words(entry, "id"), words(entry, "for"));
+        match cards.iter_mut().find(|(other, _)| *other == id) {
+            Some((_, purposes)) => purposes.push(purpose),
+            None => cards.push((id, vec![purpose])),
+        }
+    }
+    let mut list = String::new();
+    for (id, purposes) in cards {
+        let Some(point) = point(document, id) else {
             continue;
         };
-        cards += &format!(
-            "<li data-id=\"{}\"><h3>{}</h3>\n<p>{}</p>\n<p class=\"figures\">{}</p>\n{}</li>\n",
-            escape(words(point, "id")),
-            escape(words(entry, "for")),
+        list += &format!(
+            "<li data-id=\"{}\"><h3>For {}</h3>\n<p>{}</p>\n<p class=\"figures\">{}</p>\n{}</li>\n",
+            escape(id),
+            escape(&purposes.join(", ")),
             escape(&label(point)),
             escape(&choice.figures(point)),
-            command(words(point, "command")),
+            folded(words(point, "command")),
         );
     }
-    if cards.is_empty() {
+    if list.is_empty() {
         return String::new();
     }
-    format!("<section id=\"advice\">\n<h2>Advice</h2>\n<ul class=\"cards\">\n{cards}</ul>\n</section>\n")
+    format!(
+        "<section id=\"advice\">\n<h2>Advice</h2>\n<ul class=\"cards\">\n{list}</ul>\n</section>\n"
+    )
 }
 
 /// A point in a few words: its backend and what is set.
@@ -173,9 +191,24 @@ fn label(point: &Value) -> String {
     format!("{}: {name}", words(point, "backend"))
 }
 
-/// A command to copy; the script adds the button.
+/// A command to copy; the script adds the button. Lines break between words alone.
 fn command(line: &str) -> String {
-    format!("<div class=\"command\"><code>{}</code></div>\n", escape(line))
+    let words = line
+        .split(' ')
+        .map(|w| format!("<span>{}</span>", escape(w)));
+    let words: Vec<_> = words.collect();
+    format!(
+        "<div class=\"command\"><code>{}</code></div>\n",
+        words.join(" ")
+    )
+}
+
+/// The same, shown when asked for.
+fn folded(line: &str) -> String {
+    format!(
+        "<details class=\"folded\"><summary>Command</summary>{}</details>\n",
+        command(line)
+    )
 }
 
 /// The chart, and the place for what is chosen.

@@ -1,11 +1,18 @@
 //! What a sweep found, for people and for machines.
 
 use super::advice::error;
-use super::{Sweep, seconds};
+use super::{Sweep, page, seconds};
 use crate::commands::{SCHEMA_VERSION, facts};
-use crate::output;
+use crate::exit::Result;
+use crate::measure::front;
+use crate::output::{self, Pending};
 use crate::text;
 use serde_json::{Value, json};
+use std::io::Write as _;
+use vsgl_core::settings::Settings;
+
+/// Name of the page in the folder of the sweep.
+const PAGE: &str = "report.html";
 
 /// Time and error of a point in a few words.
 pub(super) fn brief(point: &Value) -> String {
@@ -43,6 +50,18 @@ impl Sweep<'_> {
         document
     }
 
+    /// Writes what people look at.
+    ///
+    /// # Errors
+    /// [`crate::exit::Failure::Output`] if that fails.
+    pub(super) fn write_page(&self, document: &Value) -> Result<()> {
+        let folder = &self.args.sweep.output;
+        let picture = |name: &str| std::fs::read(folder.join(name)).ok();
+        let html = page::page(&for_page(document.clone()), &picture);
+        let file = Pending::create(&folder.join(PAGE))?;
+        file.write(|file| file.write_all(html.as_bytes()))
+    }
+
     /// The words that chose what was swept.
     fn words(&self) -> Vec<String> {
         let args = &self.args.sweep;
@@ -69,6 +88,39 @@ impl Sweep<'_> {
         }
         words
     }
+}
+
+/// The document with what a page shows beside it: the usual value of a setting that only other points state, and a front
+/// for each backend, since nobody has all of them.
+fn for_page(mut document: Value) -> Value {
+    let Some(points) = document["points"].as_array_mut() else {
+        return document;
+    };
+    let stated = |key: &str, points: &[Value]| points.iter().any(|p| !p["settings"][key].is_null());
+    for (key, usual) in Settings::default().entries() {
+        if !stated(key, points) {
+            continue;
+        }
+        for point in points.iter_mut().filter(|p| p["settings"].is_object()) {
+            if point["settings"][key].is_null() {
+                point["settings"][key] = usual.as_str().into();
+            }
+        }
+    }
+    let backends: Vec<Value> = points.iter().map(|p| p["backend"].clone()).collect();
+    for backend in &backends {
+        let of: Vec<usize> = (0..points.len())
+            .filter(|i| backends[*i] == *backend)
+            .collect();
+        let pairs: Vec<_> = of
+            .iter()
+            .map(|&i| (seconds(&points[i]), error(&points[i])))
+            .collect();
+        for index in front(&pairs) {
+            points[of[index]]["front"] = true.into();
+        }
+    }
+    document
 }
 
 /// The processor in words, where the system tells.

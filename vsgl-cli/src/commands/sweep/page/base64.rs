@@ -10,7 +10,11 @@ pub(super) fn encode(bytes: &[u8]) -> String {
         let word = byte(0) << 16 | byte(1) << 8 | byte(2);
         for place in 0..4 {
             let letter = LETTERS[(word >> (18 - 6 * place) & 63) as usize];
-            out.push(if place > three.len() { '=' } else { char::from(letter) });
+            out.push(if place > three.len() {
+                '='
+            } else {
+                char::from(letter)
+            });
         }
     }
     out

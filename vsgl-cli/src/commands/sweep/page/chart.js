@@ -3,15 +3,16 @@
 const chart = document.getElementById('chart');
 const hint = element('div', { id: 'hint', hidden: true });
 
-function axis(values, from, to) {
+/** A logarithmic axis around these values; a number takes so much room along it. */
+function axis(values, from, to, room) {
   const [low, high] = [Math.min(...values), Math.max(...values)];
   const middle = Math.sqrt(low * high);
   const reach = Math.max(1.5, Math.sqrt(high / low) ** 1.08) * 1.08;
   const [least, most] = [middle / reach, middle * reach];
   const place = (value) => from + ((Math.log(Math.max(value, least)) - Math.log(least)) / Math.log(most / least)) * (to - from);
-  const decades = Math.log10(most / least);
-  const crowded = Math.abs(to - from) < 420;
-  const named = decades < 1.3 ? (crowded ? [1, 2, 5] : [1, 2, 3, 5, 7]) : decades < 2.6 && !(crowded && decades > 1.7) ? [1, 2, 5] : [1];
+  // How much room there is for numbers.
+  const roomy = Math.abs(to - from) / Math.log10(most / least) / room;
+  const named = roomy > 9 ? [1, 2, 3, 5, 7] : roomy > 3.5 ? [1, 2, 5] : roomy > 2.2 ? [1, 3] : [1];
   const ticks = [];
   for (let decade = Math.floor(Math.log10(least)); decade <= Math.ceil(Math.log10(most)); decade++) {
     for (let digit = 1; digit < 10; digit++) {
@@ -53,8 +54,8 @@ function drawChart() {
   const errors = able.map(errorOf).filter((error) => error > 0);
   const floor = noise();
   const inside = floor !== null && floor > 0.1 * Math.min(...errors);
-  const across = axis(able.flatMap((point) => [timeOf(point).least, timeOf(point).most]), left, right);
-  const up = axis([...(errors.length ? errors : [1]), ...(inside ? [floor] : [])], bottom, top);
+  const across = axis(able.flatMap((point) => [timeOf(point).least, timeOf(point).most]), left, right, 42);
+  const up = axis([...(errors.length ? errors : [1]), ...(inside ? [floor] : [])], bottom, top, 18);
   const name = `Error against time, ${shown.length} points. Arrow keys go from point to point.`;
   const svg = drawn('svg', { viewBox: `0 0 ${width} ${height}`, role: 'listbox', tabindex: 0, class: 'listbox', 'aria-label': name, onkeydown: arrows });
   if (inside) {
@@ -138,7 +139,7 @@ function drawNote(able, shown, best) {
   const parts = [
     `${shown.length} of ${points.length} points, ${best.size} on the front: nothing else that is shown is both faster and nearer to the truth on the same backend.`,
     'Further down and further left is better. Bars reach from the fastest to the slowest run.',
-    floor === null ? '' : `Grey: the noise of the reference itself, ${errorText(floor)}; errors near it say little.`,
+    floor === null ? '' : `The noise of the reference itself is ${errorText(floor)} (grey, where the chart reaches so far); errors near it say little.`,
     without ? `${without} have no such ${points.some((point) => !timeOf(point)) ? 'time' : 'error'}.` : '',
   ];
   document.getElementById('chart-note').textContent = parts.filter(Boolean).join(' ');

@@ -25,7 +25,9 @@ pub(super) fn figure<'a>(document: &'a Value, choice: &Choice) -> (String, Vec<&
         .iter()
         .filter_map(|p| Some((p, choice.time(p)?, choice.error(p)?)))
         .filter(|(_, [median, least, most], error)| {
-            [median, least, most, error].iter().all(|v| v.is_finite() && **v > 0.0)
+            [median, least, most, error]
+                .iter()
+                .all(|v| v.is_finite() && **v > 0.0)
         })
         .collect();
     if shown.is_empty() {
@@ -63,11 +65,17 @@ pub(super) fn figure<'a>(document: &'a Value, choice: &Choice) -> (String, Vec<&
             format!("{path}H{:.1}V{:.1}", pair[1].0, pair[1].1)
         });
         if let Some((x, y)) = front.first() {
-            svg += &format!("<path class=\"front b{}\" d=\"M{x:.1} {y:.1}{stairs}\"></path>\n", index % 6);
+            svg += &format!(
+                "<path class=\"front b{}\" d=\"M{x:.1} {y:.1}{stairs}\"></path>\n",
+                index % 6
+            );
         }
     }
     for (point, [median, least, most], error) in &shown {
-        let index = backends.iter().position(|b| *b == words(point, "backend")).unwrap_or(0);
+        let index = backends
+            .iter()
+            .position(|b| *b == words(point, "backend"))
+            .unwrap_or(0);
         let (x, y) = (across.place(*median), up.place(*error));
         svg += &format!(
             "<g class=\"point b{}\"><title>{}: {}</title><path class=\"spread\" d=\"M{:.1} {y:.1}H{:.1}\"></path>{}</g>\n",
@@ -130,10 +138,30 @@ fn axes(across: &Axis, up: &Axis, choice: &Choice) -> String {
 pub(super) fn mark(backend: usize, x: f64, y: f64, full: bool) -> String {
     let r = if full { 5.5 } else { 4.5 };
     let d = match backend % 4 {
-        0 => format!("M{:.1} {y:.1}a{r} {r} 0 1 0 {} 0a{r} {r} 0 1 0 {} 0z", x - r, 2.0 * r, -2.0 * r),
-        1 => format!("M{:.1} {:.1}h{w}v{w}h-{w}z", x - 0.9 * r, y - 0.9 * r, w = 1.8 * r),
-        2 => format!("M{x:.1} {:.1}l{:.2} {h:.2}h{:.2}z", y - 1.15 * r, 1.1 * r, -2.2 * r, h = 2.0 * r),
-        _ => format!("M{x:.1} {:.1}l{s} {s}l-{s} {s}l-{s} -{s}z", y - 1.25 * r, s = 1.25 * r),
+        0 => format!(
+            "M{:.1} {y:.1}a{r} {r} 0 1 0 {} 0a{r} {r} 0 1 0 {} 0z",
+            x - r,
+            2.0 * r,
+            -2.0 * r
+        ),
+        1 => format!(
+            "M{:.1} {:.1}h{w}v{w}h-{w}z",
+            x - 0.9 * r,
+            y - 0.9 * r,
+            w = 1.8 * r
+        ),
+        2 => format!(
+            "M{x:.1} {:.1}l{:.2} {h:.2}h{:.2}z",
+            y - 1.15 * r,
+            1.1 * r,
+            -2.2 * r,
+            h = 2.0 * r
+        ),
+        _ => format!(
+            "M{x:.1} {:.1}l{s} {s}l-{s} {s}l-{s} -{s}z",
+            y - 1.25 * r,
+            s = 1.25 * r
+        ),
     };
     let class = if full { "mark full" } else { "mark" };
     format!("<path class=\"{class} b{}\" d=\"{d}\"></path>", backend % 6)

@@ -1,7 +1,7 @@
 //! What is shown: of which light, over which boxes, by which metric, against which time.
 
-use super::text::{number, seconds};
 use super::points;
+use super::text::{number, seconds};
 use serde_json::Value;
 
 /// A choice among the errors and times of points. Without a script it is the usual one.
@@ -22,7 +22,12 @@ impl Choice {
             metric: "mape",
             time: "wall",
         };
-        let choices = [("indirect", "8"), ("indirect", "1"), ("whole", "8"), ("whole", "1")];
+        let choices = [
+            ("indirect", "8"),
+            ("indirect", "1"),
+            ("whole", "8"),
+            ("whole", "1"),
+        ];
         let mut choices = choices.map(|(layer, scale)| of(layer, scale)).into_iter();
         let known = |c: &Self| points(document).iter().any(|p| c.error(p).is_some());
         choices.find(known).unwrap_or(of("whole", "1"))

@@ -120,7 +120,7 @@ function errors(point) {
 
 /** A command with a button that copies it. */
 function command(line) {
-  const code = element('code', {}, line);
+  const code = element('code', {}, ...line.split(' ').flatMap((word) => [element('span', {}, word), ' ']).slice(0, -1));
   return element('div', { class: 'command' }, code, copyButton(code));
 }
 

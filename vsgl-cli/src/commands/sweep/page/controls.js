@@ -80,7 +80,7 @@ function begin() {
   }
   for (const card of document.querySelectorAll('#advice li[data-id]')) {
     const point = byId(card.dataset.id);
-    if (point) card.append(element('p', {}, element('button', { type: 'button', onclick: () => show(point) }, 'Show')));
+    if (point) card.querySelector('.figures').append(' ', element('button', { type: 'button', onclick: () => show(point) }, 'Show'));
   }
   for (const image of document.querySelectorAll('figure[data-id] img')) {
     const point = byId(image.dataset.picture);

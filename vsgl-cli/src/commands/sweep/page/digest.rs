@@ -2,7 +2,11 @@
 
 /// Fractional parts of the cube roots of the first 64 primes, or of the square roots: the standard's constants.
 fn fractions<const N: usize>(root: impl Fn(f64) -> f64) -> [u32; N] {
-    let prime = |n: &u32| (2..*n).take_while(|d| d * d <= *n).all(|d| !n.is_multiple_of(d));
+    let prime = |n: &u32| {
+        (2..*n)
+            .take_while(|d| d * d <= *n)
+            .all(|d| !n.is_multiple_of(d))
+    };
     let mut primes = (2_u32..).filter(prime);
     std::array::from_fn(|_| {
         let value = root(f64::from(primes.next().unwrap_or(2)));
@@ -48,7 +52,16 @@ pub(super) fn sha256(bytes: &[u8]) -> [u8; 32] {
             let sum = a.rotate_right(2) ^ a.rotate_right(13) ^ a.rotate_right(22);
             let most = a & b ^ a & c ^ b & c;
             let second = sum.wrapping_add(most);
-            state = [first.wrapping_add(second), a, b, c, d.wrapping_add(first), e, f, g];
+            state = [
+                first.wrapping_add(second),
+                a,
+                b,
+                c,
+                d.wrapping_add(first),
+                e,
+                f,
+                g,
+            ];
         }
         for (total, word) in hash.iter_mut().zip(state) {
             *total = total.wrapping_add(word);
@@ -72,8 +85,14 @@ mod tests {
     #[test]
     fn vectors_of_the_standard() {
         let vectors: [(&[u8], &str); 3] = [
-            (b"", "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855"),
-            (b"abc", "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad"),
+            (
+                b"",
+                "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855",
+            ),
+            (
+                b"abc",
+                "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad",
+            ),
             (
                 b"abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq",
                 "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1",

@@ -1,8 +1,8 @@
 //! Which pictures the page holds: the reference, what is advised and the front, as far as they fit.
 
 use super::choice::Choice;
-use super::{base64, command, label, points, words};
 use super::text::{escape, seconds};
+use super::{base64, folded, label, points, words};
 use serde_json::Value;
 use std::collections::BTreeMap;
 
@@ -33,13 +33,18 @@ impl Pictures {
             Some(format!("data:image/png;base64,{}", base64::encode(&bytes)))
         };
         let reference = take(&document["reference"]["picture"]);
-        let front: Vec<_> = points(document).iter().filter(|p| p["front"] == true).collect();
+        let front: Vec<_> = points(document)
+            .iter()
+            .filter(|p| p["front"] == true)
+            .collect();
         let advice = document["advice"].as_array().map_or(&[][..], Vec::as_slice);
         let advised = |p: &Value| advice.iter().any(|a| a["id"] == p["id"]);
         // What is advised first, then every 8th, 4th, 2nd … of the front: what does not fit is missing evenly.
         let mut order: Vec<_> = front.iter().enumerate().collect();
         order.sort_by_key(|(index, p)| (!advised(p), std::cmp::Reverse(index.trailing_zeros())));
-        let more = points(document).iter().filter(|p| advised(p) && p["front"] != true);
+        let more = points(document)
+            .iter()
+            .filter(|p| advised(p) && p["front"] != true);
         let wanted = more.chain(order.into_iter().map(|(_, p)| *p));
         let mut of = BTreeMap::new();
         for point in wanted {
@@ -47,7 +52,10 @@ impl Pictures {
                 of.insert(words(point, "id").to_owned(), picture);
             }
         }
-        let left_out = front.iter().filter(|p| !of.contains_key(words(p, "id"))).count();
+        let left_out = front
+            .iter()
+            .filter(|p| !of.contains_key(words(p, "id")))
+            .count();
         Self {
             reference,
             of,
@@ -85,7 +93,7 @@ impl Pictures {
                  <figcaption><b>{}</b><br>{name}\n{}</figcaption></figure>\n",
                 self.of[id],
                 escape(&figures_of),
-                command(words(point, "command")),
+                folded(words(point, "command")),
                 id = escape(id),
                 name = escape(&name),
             );

@@ -8,7 +8,10 @@ use serde_json::Value;
 /// Below the chart.
 pub(super) fn chart_note(document: &Value, choice: &Choice) -> String {
     let noise = choice.noise(document).map_or(String::new(), |noise| {
-        format!(" Grey: the noise of the reference itself, {} %.", number(noise))
+        format!(
+            " The noise of the reference itself is {} % (grey, where the chart reaches so far).",
+            number(noise)
+        )
     });
     format!(
         "{}. Further down and further left is better. Full marks on the line are the front: nothing else is both faster \
@@ -36,7 +39,10 @@ pub(super) fn section(document: &Value, choice: &Choice) -> String {
             escape(&choice.words())
         )
     });
-    let runs: Vec<_> = points(document).iter().filter_map(|p| p["runs"].as_u64()).collect();
+    let runs: Vec<_> = points(document)
+        .iter()
+        .filter_map(|p| p["runs"].as_u64())
+        .collect();
     let runs = match (runs.iter().min(), runs.iter().max()) {
         (Some(least), Some(most)) if least == most => format!(" Here: {least}."),
         (Some(least), Some(most)) => format!(" Here: {least} to {most}."),
@@ -45,7 +51,10 @@ pub(super) fn section(document: &Value, choice: &Choice) -> String {
     let line = words(document, "command");
     let again = match line.is_empty() {
         true => String::new(),
-        false => format!("<p>This sweep again, or on from where it stopped:</p>\n{}", command(line)),
+        false => format!(
+            "<p>This sweep again, or on from where it stopped:</p>\n{}",
+            command(line)
+        ),
     };
     format!(
         "<section id=\"reading\">\n<h2>How to read this</h2>\n<dl>\n\

@@ -11,7 +11,10 @@ const FIRST: [&str; 3] = ["lights", "interleave", "occlusion"];
 
 /// What no other setting of its backend beats, fastest first.
 pub(super) fn front(document: &Value, choice: &Choice) -> String {
-    let mut rows: Vec<_> = points(document).iter().filter(|p| p["front"] == true).collect();
+    let mut rows: Vec<_> = points(document)
+        .iter()
+        .filter(|p| p["front"] == true)
+        .collect();
     rows.sort_by(|a, b| order(choice, a).total_cmp(&order(choice, b)));
     let caption = format!("By {}, against wall time.", choice.words());
     format!(
@@ -33,15 +36,24 @@ pub(super) fn all(document: &Value, choice: &Choice) -> String {
 }
 
 fn order(choice: &Choice, point: &Value) -> f64 {
-    choice.time(point).map_or(f64::INFINITY, |[median, ..]| median)
+    choice
+        .time(point)
+        .map_or(f64::INFINITY, |[median, ..]| median)
 }
 
 /// The settings that are not the same for all points.
 fn columns(document: &Value) -> Vec<&str> {
     let mut values: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
-    let settings = || points(document).iter().filter_map(|p| p["settings"].as_object());
+    let settings = || {
+        points(document)
+            .iter()
+            .filter_map(|p| p["settings"].as_object())
+    };
     for (key, value) in settings().flatten() {
-        values.entry(key).or_default().insert(value.as_str().unwrap_or(""));
+        values
+            .entry(key)
+            .or_default()
+            .insert(value.as_str().unwrap_or(""));
     }
     let everywhere = |key: &str| settings().all(|s| s.contains_key(key));
     let mut keys: Vec<_> = values
@@ -54,7 +66,9 @@ fn columns(document: &Value) -> Vec<&str> {
 }
 
 fn table(id: &str, columns: &[&str], rows: &[&Value], choice: &Choice) -> String {
-    let mut html = format!("<div class=\"scroll\"><table id=\"{id}\">\n<thead><tr><th scope=\"col\">backend</th>");
+    let mut html = format!(
+        "<div class=\"scroll\"><table id=\"{id}\">\n<thead><tr><th scope=\"col\">backend</th>"
+    );
     for column in columns {
         html += &format!("<th scope=\"col\">{}</th>", escape(column));
     }
@@ -71,7 +85,9 @@ fn table(id: &str, columns: &[&str], rows: &[&Value], choice: &Choice) -> String
         }
         let lights = point["virtual_lights"].as_u64().map_or("–".into(), whole);
         let time = |key: &str| point[key]["median"].as_f64().map_or("–".into(), seconds);
-        let error = choice.error(point).map_or("–".into(), |e| format!("{} %", number(e)));
+        let error = choice
+            .error(point)
+            .map_or("–".into(), |e| format!("{} %", number(e)));
         for text in [lights, time("wall"), time("cpu"), error] {
             html += &format!("<td class=\"number\">{text}</td>");
         }

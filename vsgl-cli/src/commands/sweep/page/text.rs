@@ -13,7 +13,7 @@ pub(super) fn escape(text: &str) -> String {
             '>' => out += "&gt;",
             '"' => out += "&quot;",
             '\'' => out += "&#39;",
-            '\n' | '\t' => out.push(' '),
+            '\n' | '\t' | '\u{2028}' | '\u{2029}' => out.push(' '),
             '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}' => out.push('\u{fffd}'),
             c if c.is_control() => out.push('\u{fffd}'),
             c => out.push(c),
@@ -29,7 +29,9 @@ pub(super) fn script_data(document: &Value) -> String {
     for c in text.chars() {
         // In JSON these are inside strings only.
         match c {
-            '<' | '>' | '&' | '\'' | '\u{2028}' | '\u{2029}' => out += &format!("\\u{:04x}", u32::from(c)),
+            '<' | '>' | '&' | '\'' | '\u{2028}' | '\u{2029}' => {
+                out += &format!("\\u{:04x}", u32::from(c))
+            }
             '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}' => out += "\\ufffd",
             c if c.is_control() => out += &format!("\\u{:04x}", u32::from(c)),
             c => out.push(c),
