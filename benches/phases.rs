@@ -167,6 +167,37 @@ fn maps(c: &mut Criterion) {
     group.finish();
 }
 
+/// Throughput is draws of points or triangles. `columns` has small triangles, `cornell` none.
+fn shadow_maps(c: &mut Criterion) {
+    let mut group = c.benchmark_group("shadow maps");
+    group.sample_size(10);
+    group.throughput(Throughput::Elements(64 * 8192));
+    for scene in ["cornell", "columns"] {
+        let set = Set::new(scene, 16, 9);
+        for occlusion in [OcclusionMethod::Ism, OcclusionMethod::IsmTessellated] {
+            let plan = set.plan(&Settings {
+                lights: 64,
+                occlusion,
+                ..Settings::default()
+            });
+            let bounce = plan.bounce.as_ref().expect("a lit scene");
+            let (rsm, pdf) = light_side(&set, bounce);
+            let cluster = bounce.cluster.as_ref().expect("method vsgl");
+            let made = set.backend.cluster(&set.data, &rsm, pdf.as_ref(), cluster);
+            let vsgls = made.expect("cpu");
+            let maps = bounce.occlusion.as_ref().expect("shadow maps");
+            group.bench_function(BenchmarkId::new(occlusion.word(), scene), |b| {
+                b.iter(|| {
+                    set.backend
+                        .occlusion(&set.data, black_box(&vsgls), maps)
+                        .expect("cpu")
+                });
+            });
+        }
+    }
+    group.finish();
+}
+
 /// Throughput is pairs of a sample and a virtual light.
 fn shading(c: &mut Criterion) {
     let set = Set::new("cornell", 160, 90);
@@ -427,6 +458,14 @@ fn paths(c: &mut Criterion) {
 }
 
 criterion_group!(
-    benches, densities, clusters, maps, shading, two_lights, frames, paths
+    benches,
+    densities,
+    clusters,
+    maps,
+    shadow_maps,
+    shading,
+    two_lights,
+    frames,
+    paths
 );
 criterion_main!(benches);

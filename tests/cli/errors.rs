@@ -60,10 +60,6 @@ fn nonsense_in_flags_is_code_2() {
         ("--method path --max-depth 65", &["max_depth", "64"]),
         ("--occlusion lightmaps", &["--occlusion", "rays"]),
         ("--occlusion ism --method vpl", &["occlusion", "vpl"]),
-        (
-            "--occlusion ism --interleave 2",
-            &["occlusion", "interleave"],
-        ),
         ("--set map_size=7", &["map_size", "8 to"]),
         ("--set map_points=0", &["map_points"]),
         ("--glossy asg", &["--glossy", "asg-2015"]),

@@ -91,6 +91,7 @@ pub(crate) fn common() -> Vec<(String, Settings)> {
         "clustering=nearest-world",
         "interleave=4",
         "interleave=2 occlusion=sampled",
+        "interleave=2 occlusion=ism map_points=512",
     ] {
         all.push((words.into(), with(Settings::default(), words)));
     }

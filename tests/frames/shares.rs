@@ -19,6 +19,8 @@ fn every_side_and_every_occlusion() {
         (4, "none"),
         (4, "sampled"),
         (8, "rays"),
+        (2, "ism map_size=16 map_points=512"),
+        (4, "ism-tessellated map_size=16 map_points=512"),
     ] {
         let choice = format!("lights=70 rsm=32 interleave={side} occlusion={occlusion}");
         let shot = Shot::sample("cornell").with(&choice);
@@ -61,6 +63,7 @@ fn surfaces_that_shine() {
         "lights=64 rsm=32 interleave=4",
         "lights=64 rsm=32 interleave=2 occlusion=sampled",
         "lights=40 rsm=32 interleave=2 clustering=filtered",
+        "lights=40 rsm=32 interleave=2 occlusion=ism map_size=16 map_points=512",
     ] {
         let mut shot = shining(choice);
         both(&format!("shining, {choice}"), &shot);

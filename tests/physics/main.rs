@@ -10,5 +10,6 @@ mod explain;
 mod furnace;
 mod invariance;
 mod lights;
+mod maps;
 mod paths;
 mod shares;

@@ -48,6 +48,18 @@ fn shares_and_drawn_rays_are_reconstructed() {
 }
 
 #[test]
+fn shares_of_the_lights_read_their_shadow_maps() {
+    for word in ["ism", "ism-tessellated"] {
+        let settings = format!("interleave=4 occlusion={word}");
+        let plan = Shot::sample("cornell").with(&settings).plan();
+        assert!(plan.shade.leaves_sums() && plan.shade.occlusion.has_maps());
+        let made = plan.reconstruct.as_ref().expect("shares");
+        assert!(!made.sampled, "maps answer for every light of a share");
+        assert!(plan.bounce.expect("light").occlusion.is_some());
+    }
+}
+
+#[test]
 fn a_share_has_a_light_at_least() {
     for (lights, wanted, side) in [(64, 8, 8), (63, 8, 4), (3, 8, 1), (16, 4, 4), (1, 2, 1)] {
         let words = format!("lights={lights} interleave={wanted}");

@@ -135,16 +135,6 @@ impl Plan {
         if settings.method == Method::Vpl {
             texels_are_the_reference(settings)?;
         }
-        if settings.interleave > 1 && settings.occlusion.has_maps() {
-            return Err(Error::setting(
-                "interleave",
-                format!(
-                    "shares of the lights do not read the maps of `{}` yet",
-                    settings.occlusion
-                ),
-                "set `interleave` to `1`, or `occlusion` to `rays`, `sampled` or `none`",
-            ));
-        }
         let clusters = lit && settings.method == Method::Vsgl;
         if lit && !clusters {
             reasons.no("clusters", "the method `vpl` takes every texel for a light");

@@ -171,6 +171,35 @@ fn leave(i: u32, left: Left, emitting: bool) {
     }
 }
 
+// The sample of an invocation, and the lights that it takes.
+struct Taken {
+    sample: u32,
+    share: u32,
+    stride: u32,
+    inside: bool,
+}
+
+fn taken_by(index: u32) -> Taken {
+    if !LEAVES_SUMS {
+        return Taken(index, 0u, 1u, true);
+    }
+    let shares = Shares(params.side, params.width, params.height);
+    let place = shares_sample(shares, index);
+    let inside = place.x < params.width && place.y < params.height;
+    let sample = place.y * params.width + place.x;
+    return Taken(sample, shares_share(shares, place), shares_count(shares), inside);
+}
+
+// Whether the last light before this dispatch shines by itself.
+fn emits_before(taken: Taken) -> bool {
+    let before = min(params.first_light, clusters.value);
+    if !EMITTERS || before <= taken.share || triangle[taken.sample] == NO_TRIANGLE {
+        return false;
+    }
+    let last = taken.share + (before - 1u - taken.share) / taken.stride * taken.stride;
+    return all(diffuse_vsgl_at(last).light == vec3(0.0));
+}
+
 @compute @workgroup_size(INVOCATIONS)
 fn vsgls(
     @builtin(global_invocation_id) invocation: vec3<u32>,
@@ -180,26 +209,12 @@ fn vsgls(
     if index >= params.end {
         return;
     }
-    var i = index;
-    var share = 0u;
-    var stride = 1u;
-    if LEAVES_SUMS {
-        let shares = Shares(params.side, params.width, params.height);
-        let place = shares_sample(shares, index);
-        if place.x >= params.width || place.y >= params.height {
-            return;
-        }
-        i = place.y * params.width + place.x;
-        share = shares_share(shares, place);
-        stride = shares_count(shares);
+    let taken = taken_by(index);
+    if !taken.inside {
+        return;
     }
-    var emitting = false;
-    let before = min(params.first_light, clusters.value);
-    if EMITTERS && before > share {
-        // The last light of the share before this dispatch.
-        let last = share + (before - 1u - share) / stride * stride;
-        emitting = triangle[i] != NO_TRIANGLE && all(diffuse_vsgl_at(last).light == vec3(0.0));
-    }
+    let i = taken.sample;
+    var emitting = emits_before(taken);
     var left = left_before(i, emitting);
     if triangle[i] != NO_TRIANGLE {
         let seen = receiver_at(i);
@@ -213,8 +228,8 @@ fn vsgls(
         }
         let surfaces = surfaces_of(seen);
         let capacity = params.lights;
-        let first = shares_first(params.first_light, share, stride);
-        for (var j = first; j < min(params.end_light, clusters.value); j += stride) {
+        let first = shares_first(params.first_light, taken.share, taken.stride);
+        for (var j = first; j < min(params.end_light, clusters.value); j += taken.stride) {
             let light = diffuse_vsgl_at(j);
             if EMITTERS && !emitting && all(light.light == vec3(0.0)) {
                 if LEAVES_SUMS {
@@ -267,26 +282,32 @@ fn vsgls_with_maps(
     @builtin(global_invocation_id) invocation: vec3<u32>,
     @builtin(num_workgroups) groups: vec3<u32>,
 ) {
-    let i = params.first + item_index(invocation, groups);
-    if i >= params.end {
+    let index = params.first + item_index(invocation, groups);
+    if index >= params.end {
         return;
     }
-    var total = sums_before(i);
-    var emitting = false;
+    let taken = taken_by(index);
+    if !taken.inside {
+        return;
+    }
+    let i = taken.sample;
+    var emitting = emits_before(taken);
+    var left = left_before(i, emitting);
     if triangle[i] != NO_TRIANGLE {
         let seen = receiver_at(i);
         let facing = surface_geometric_normal(triangle[i], params.eye - seen.position);
         let surfaces = surfaces_of(seen);
         let capacity = params.lights;
-        let before = min(params.first_light, clusters.value);
-        if EMITTERS && before > 0u {
-            emitting = all(diffuse_vsgl_at(before - 1u).light == vec3(0.0));
-        }
-        for (var j = params.first_light; j < min(params.end_light, clusters.value); j++) {
+        let first = shares_first(params.first_light, taken.share, taken.stride);
+        for (var j = first; j < min(params.end_light, clusters.value); j += taken.stride) {
             let light = diffuse_vsgl_at(j);
             if EMITTERS && !emitting && all(light.light == vec3(0.0)) {
-                write_indirect(i, total);
-                total = Sums();
+                if LEAVES_SUMS {
+                    leave_at(i, left_lit(left), false);
+                } else {
+                    write_indirect(i, left.sums);
+                }
+                left = Left();
                 emitting = true;
             }
             var sums = reflect_diffuse(light, seen, surfaces);
@@ -296,11 +317,11 @@ fn vsgls_with_maps(
             if sums_lit(sums) {
                 let point = target_at(j, capacity, select(0u, SPECULAR_STRIDE, GLOSSY_SENDERS));
                 let open = open_by_map(j, point, seen.position, facing);
-                total = sums_add(total, sums_scale(sums, open));
+                left.sums = sums_add(left.sums, sums_scale(sums, open));
             }
         }
     }
-    write_sums(i, total, emitting);
+    leave(i, left, emitting);
 }
 
 @compute @workgroup_size(INVOCATIONS)
