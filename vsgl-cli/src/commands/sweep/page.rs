@@ -87,10 +87,12 @@ fn words<'a>(value: &'a Value, key: &str) -> &'a str {
     value[key].as_str().unwrap_or("")
 }
 
+/// The scene without its folder.
 fn scene_name(document: &Value) -> &str {
-    match words(&document["scene"], "name") {
-        "" => "a scene",
-        name => name,
+    let name = words(&document["scene"], "name");
+    match name.rsplit(['/', '\\']).next() {
+        None | Some("") => "a scene",
+        Some(file) => file,
     }
 }
 
