@@ -116,6 +116,7 @@ pub(crate) fn choose<B: Host>(
             plan: &plan,
         };
         let effort = Effort {
+            warm_up: Duration::from_millis(500),
             runs: 3,
             patience: Duration::from_secs(2),
         };
@@ -124,9 +125,12 @@ pub(crate) fn choose<B: Host>(
             seconds: frames.seconds(),
             error: truth.error_of(&frames)?,
         };
-        model.time_scale *= measured.seconds / predicted.seconds;
-        model.error_scale *= measured.error / predicted.error;
         tried.push((settings, predicted, measured));
+        model.correct(
+            tried
+                .iter()
+                .map(|(settings, _, measured)| (settings, measured)),
+        );
     }
     let frames = tried.len();
     let rank = |outcome: &Outcome| rank(goal, outcome);

@@ -82,6 +82,32 @@ impl Model {
     }
 }
 
+impl Model {
+    /// Learns from frames at the full size: all predictions are scaled by the geometric mean of measured over predicted, so that
+    /// one odd number of lights does not spoil the others.
+    pub(super) fn correct<'a>(
+        &mut self,
+        measured: impl Iterator<Item = (&'a Settings, &'a Outcome)>,
+    ) {
+        (self.time_scale, self.error_scale) = (1.0, 1.0);
+        let ratio = |(settings, measured): (&Settings, &Outcome)| {
+            let predicted = self.predict(settings)?;
+            let ratio = |measured: f64, predicted: f64| (measured / predicted).ln();
+            Some((
+                ratio(measured.seconds, predicted.seconds),
+                ratio(measured.error, predicted.error),
+            ))
+        };
+        let ratios: Vec<(f64, f64)> = measured.filter_map(ratio).collect();
+        if ratios.is_empty() {
+            return;
+        }
+        let count = ratios.len() as f64;
+        self.time_scale = (ratios.iter().map(|r| r.0).sum::<f64>() / count).exp();
+        self.error_scale = (ratios.iter().map(|r| r.1).sum::<f64>() / count).exp();
+    }
+}
+
 impl Kind {
     /// A quantity between what was told, along a coordinate; on the line through the last two outside.
     fn at(&self, x: f64, coordinate: impl Fn(&Told) -> f64, value: impl Fn(&Told) -> f64) -> f64 {
@@ -165,6 +191,26 @@ mod tests {
         );
         close(found.error, 4.5);
         assert_eq!(model.predict(&settings(64, 2)), None);
+    }
+
+    #[test]
+    fn frames_at_the_full_size_correct_all_predictions() {
+        let mut model = model();
+        let (a, b) = (settings(64, 1), settings(256, 1));
+        let raw = |s| model.predict(s).expect("known");
+        let times = |o: Outcome, time, error| Outcome {
+            seconds: time * o.seconds,
+            error: error * o.error,
+        };
+        let found = [times(raw(&a), 2.0, 9.0), times(raw(&b), 2.0, 1.0)];
+        let other = settings(1024, 4);
+        let expected = times(raw(&other), 2.0, 3.0);
+        for _ in 0..2 {
+            model.correct([(&a, &found[0]), (&b, &found[1])].into_iter());
+            let corrected = model.predict(&other).expect("known");
+            close(corrected.seconds, expected.seconds);
+            close(corrected.error, expected.error);
+        }
     }
 
     #[test]

@@ -216,6 +216,7 @@ impl<B: Host> Pilot<'_, B> {
             plan: &self.job.plan_for(settings, self.job.seed)?,
         };
         let effort = Effort {
+            warm_up: Duration::from_millis(50),
             runs: 2,
             patience: Duration::from_millis(200),
         };

@@ -12,9 +12,6 @@ use vsgl_core::plan::Plan;
 use vsgl_core::render::{Observer, Phase, View, render};
 use vsgl_core::scene::Light;
 
-/// Frames that take longer need no warming up.
-const WARM_UP: Duration = Duration::from_secs(2);
-
 /// A frame that is timed.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Shot<'a> {
@@ -29,6 +26,8 @@ pub(crate) struct Shot<'a> {
 /// How often a combination is run.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Effort {
+    /// A first frame that takes longer needs no warming up, and counts.
+    pub(crate) warm_up: Duration,
     /// Runs that are timed.
     pub(crate) runs: u32,
     /// No further run begins when so much time was spent on the combination.
@@ -72,7 +71,7 @@ pub(crate) fn measure<B: Host>(
 ) -> Result<Measured> {
     let start = Instant::now();
     let (mut run, mut image, lights) = once(backend, scene, shot)?;
-    if run.wall < WARM_UP {
+    if run.wall < effort.warm_up {
         (run, image, _) = once(backend, scene, shot)?;
     }
     let mut runs = vec![run];

@@ -33,6 +33,8 @@ const QUICK: Size = Size {
 };
 /// Sides of the blocks that are compared.
 const SIDES: [u32; 2] = [1, 8];
+/// Frames that take longer need no warming up.
+const WARM_UP: Duration = Duration::from_secs(2);
 /// Folder of the pictures in the folder of the sweep.
 const PICTURES: &str = "pictures";
 
@@ -70,22 +72,22 @@ pub(super) fn run(args: &SweepArgs) -> Result<()> {
         return explain::run(args);
     }
     let (mut sweep, data) = Sweep::new(args)?;
-    let backends = backends(&args.sweep.backend, args.sweep.threads)?;
-    let last = backends.len() - 1;
-    let mut data = Some(data);
-    for (index, backend) in backends.iter().enumerate() {
-        let data = if index == last {
-            data.take()
-        } else {
-            data.clone()
-        };
-        let Some(data) = data else { continue };
-        match backend {
-            Chosen::Cpu(backend, _) => sweep.on(backend, data)?,
-            Chosen::Wgpu(backend) => sweep.on(&**backend, data)?,
+    let swept = sweep.on_all(data);
+    match &swept {
+        // What there is can be looked at; the same command goes on.
+        Err(Failure::Interrupted(_)) if !sweep.records.points.is_empty() => {
+            sweep.write(false)?;
+            swept
+        }
+        Err(_) => swept,
+        Ok(()) => {
+            let document = sweep.write(true)?;
+            match args.sweep.json {
+                true => text::print_json(&document),
+                false => text::print(&report::text(&document)),
+            }
         }
     }
-    sweep.finish()
 }
 
 /// The backends of these names; without any, the processor and a real GPU if there is one.
@@ -119,6 +121,8 @@ struct Sweep<'a> {
     depth: Depth,
     records: Records,
     reference: Option<Reference>,
+    /// Points that there will be at most.
+    planned: usize,
     /// Devices that computed.
     devices: Vec<String>,
     /// Name and reason of what was not measured.
@@ -158,9 +162,32 @@ impl<'a> Sweep<'a> {
             depth,
             records,
             reference: None,
+            planned: 0,
             devices: Vec::new(),
         };
         Ok((sweep, data))
+    }
+
+    /// All combinations on all backends.
+    fn on_all(&mut self, data: SceneData) -> Result<()> {
+        let args = &self.args.sweep;
+        let backends = backends(&args.backend, args.threads)?;
+        self.planned = backends.len() * self.grid.combinations.len();
+        let last = backends.len() - 1;
+        let mut data = Some(data);
+        for (index, backend) in backends.iter().enumerate() {
+            let data = if index == last {
+                data.take()
+            } else {
+                data.clone()
+            };
+            let Some(data) = data else { continue };
+            match backend {
+                Chosen::Cpu(backend, _) => self.on(backend, data)?,
+                Chosen::Wgpu(backend) => self.on(&**backend, data)?,
+            }
+        }
+        Ok(())
     }
 
     /// All combinations on one backend; the first renders the reference too.
@@ -171,6 +198,17 @@ impl<'a> Sweep<'a> {
             None => self.reference_by(backend, &scene)?,
         };
         self.devices.push(device_of(backend));
+        let swept = self.combinations(backend, &scene, &reference);
+        self.reference = Some(reference);
+        swept
+    }
+
+    fn combinations<B: Host>(
+        &mut self,
+        backend: &B,
+        scene: &B::Res<SceneData>,
+        reference: &Reference,
+    ) -> Result<()> {
         let steps = Steps::new(self.args.sweep.progress, self.grid.combinations.len());
         let mut done: Vec<(usize, f64)> = Vec::new();
         for index in 0..self.grid.combinations.len() {
@@ -181,7 +219,7 @@ impl<'a> Sweep<'a> {
             );
             interrupt::check()?;
             steps.begun(&label);
-            let told = match self.one(backend, &scene, index, &reference, &done)? {
+            let told = match self.one(backend, scene, index, reference, &done)? {
                 Found::There(seconds) => {
                     done.push((index, seconds));
                     "there already".to_owned()
@@ -201,7 +239,6 @@ impl<'a> Sweep<'a> {
             steps.passed(&format!("{label}: {told}"));
         }
         steps.finish();
-        self.reference = Some(reference);
         Ok(())
     }
 
@@ -225,6 +262,7 @@ impl<'a> Sweep<'a> {
             return Ok(Found::LeftOut(why));
         }
         let effort = Effort {
+            warm_up: WARM_UP,
             runs: self.depth.runs,
             patience: Duration::from_secs(self.depth.patience),
         };
@@ -337,16 +375,17 @@ impl<'a> Sweep<'a> {
     }
 
     /// Marks the front, advises, and writes what people read.
-    fn finish(mut self) -> Result<()> {
+    fn write(&mut self, finished: bool) -> Result<Value> {
         let advice = advice::give(&mut self.records.points);
         self.records.write()?;
         self.records.write_table()?;
-        let document = self.document(&advice);
-        self.write_page(&document)?;
-        if self.args.sweep.json {
-            return text::print_json(&document);
+        let mut document = self.document(&advice);
+        document["finished"] = finished.into();
+        if !finished {
+            document["planned"] = self.planned.into();
         }
-        text::print(&report::text(&document))
+        self.write_page(&document)?;
+        Ok(document)
     }
 }
 
