@@ -11,6 +11,7 @@ fn without_a_scene_it_lists_what_there_is() {
         "cornell",
         "paper-2016",
         "paper-2015",
+        "balanced",
         "cpu",
         env!("CARGO_PKG_VERSION"),
         "bisections",

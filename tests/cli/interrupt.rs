@@ -98,8 +98,7 @@ fn ctrl_c_leaves_the_reference_of_a_sweep_so_far_which_goes_on() {
 fn ctrl_c_leaves_the_points_of_a_sweep_so_far_which_can_be_looked_at() {
     let folder = Folder::new();
     // The first line of a point begins with its backend; the last points take long.
-    let sweep =
-        "sweep -o s --backend cpu --size 320x180 --rsm 64 --spp 2 --runs 1 --grid lights=1,4096";
+    let sweep = "sweep -o s --backend cpu --size 320x180 --rsm 64 --spp 2 --runs 1 --grid lights=1,4096 --longest 9999";
     let (code, rest) = interrupted(&folder, sweep, "cpu: lights 1");
     assert_eq!(code, Some(130), "{rest}");
     let page = String::from_utf8(folder.bytes("s/report.html")).expect("text");

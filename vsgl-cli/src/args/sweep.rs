@@ -48,7 +48,7 @@ pub struct SweepOutputArgs {
     /// About a minute's worth: 320x180, fewer combinations, fewer runs, a noisier reference
     #[arg(long)]
     pub quick: bool,
-    /// Instead of a sweep: split the error of one picture by its causes, in a minute or two (on the CPU)
+    /// Instead of a sweep: split the error of one picture by its causes, in one to four minutes (on the CPU)
     ///
     /// Writes explain.json, explain.csv and explain/*.png to DIR: a map for each cause of where it makes indirect light too bright
     /// or too dark. See docs/explain.md.
