@@ -73,7 +73,7 @@ fn nonsense_in_flags_is_code_2() {
         ("--backend cuda", &["--backend", "cpu"]),
         ("--method photons", &["--method", "vpl"]),
         ("--clustering kmeans-image", &["--clustering", "partition"]),
-        ("--preset fast", &["--preset", "paper-2016"]),
+        ("--preset fastest", &["--preset", "paper-2016"]),
         ("--set lights", &["KEY=VALUE"]),
         ("--set nokey=1", &["nokey", "bisections"]),
         ("--set bisections=0", &["bisections"]),
