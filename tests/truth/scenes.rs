@@ -1,8 +1,8 @@
 //! The four views.
 //!
 //! One sample in the middle of a pixel keeps them affordable. Four samples, as with `--aa 2`, come nearer: MAPE of 1.9,
-//! 1.0, 1.0 and 4.0 % without indirect shadows and 2.3, 1.3, 3.6 and 3.4 % with them, in the order below. With shadows the
-//! references of `zdm2` and `breakfast` have 3 to 4 % of noise and missing light of their own.
+//! 1.0, 1.0 and 4.0 % without indirect shadows and 2.3, 1.3, 3.6 and 3.4 % with them, in the order below. What is left of `zdm2` is
+//! its smoothed normals, by which texels receive light otherwise than points on paths do (`docs/explain.md`).
 
 use std::path::Path;
 use vsgl_core::data::Image;
