@@ -72,12 +72,11 @@ impl Model {
         let fixed = kind.at(lights.ln(), |t| f64::from(t.lights).ln(), |t| t.fixed);
         let shade = kind.at(each, |t| f64::from(t.lights), |t| t.shade);
         let rest = kind.at(lights.ln(), |t| f64::from(t.lights).ln(), |t| t.rest);
-        let error = kind.at(lights.ln(), |t| f64::from(t.lights).ln(), |t| t.error.ln());
         let seconds =
             fixed.max(0.0) + self.samples * (shade.max(0.0) + rest.max(0.0) + share.seconds);
         Some(Outcome {
             seconds: self.time_scale * seconds,
-            error: self.error_scale * (error.exp() + share.error),
+            error: self.error_scale * (kind.error(settings.lights) + share.error),
         })
     }
 }
@@ -109,6 +108,13 @@ impl Model {
 }
 
 impl Kind {
+    /// The error with so many lights that no pixels share, in percent.
+    pub(super) fn error(&self, lights: u32) -> f64 {
+        let coordinate = |t: &Told| f64::from(t.lights).ln();
+        self.at(f64::from(lights).ln(), coordinate, |t| t.error.ln())
+            .exp()
+    }
+
     /// A quantity between what was told, along a coordinate; on the line through the last two outside.
     fn at(&self, x: f64, coordinate: impl Fn(&Told) -> f64, value: impl Fn(&Told) -> f64) -> f64 {
         let told = &self.told;

@@ -171,14 +171,7 @@ pub(super) fn calibrate<B: Host>(
     let (shares, alone) = pilot.shares(choices)?;
     // Errors of blocks of few pixels are larger by an amount that hardly depends on the number of lights, and falls to a quarter
     // with half the pixel: measured in three scenes, what is left is within a tenth.
-    let told = kinds[0]
-        .told
-        .iter()
-        .map(|t| (f64::from(t.lights).ln(), t.error));
-    let small = between(
-        &told.collect::<Vec<_>>(),
-        f64::from(pilot.shared(choices)).ln(),
-    );
+    let small = kinds[0].error(pilot.shared(choices));
     let excess = (small - alone).max(0.0) * 4.0 / 3.0;
     for told in kinds.iter_mut().flat_map(|kind| &mut kind.told) {
         told.error = (told.error - excess).max(0.2 * told.error);
@@ -301,16 +294,6 @@ fn numbers(choices: &Choices<'_>) -> Vec<u32> {
     numbers
 }
 
-/// On the line through the points on both sides of `x`; `points` are ascending and at least one.
-fn between(points: &[(f64, f64)], x: f64) -> f64 {
-    let upper = points.partition_point(|p| p.0 < x).min(points.len() - 1);
-    let (a, b) = (points[upper.saturating_sub(1)], points[upper]);
-    if b.0 <= a.0 {
-        return b.1;
-    }
-    a.1 + (x - a.0) / (b.0 - a.0) * (b.1 - a.1)
-}
-
 /// Samples of a picture.
 fn samples(view: &View) -> f64 {
     let (width, height) = view.samples();
@@ -332,15 +315,6 @@ mod tests {
         assert_eq!(means.values(), [3.0, 5.0]);
         view.stride = 2;
         assert_eq!(blocks(&plane, &view, 2).expect("one").values(), [3.0]);
-    }
-
-    #[test]
-    fn lines_go_through_their_points() {
-        let points = [(0.0, 1.0), (1.0, 3.0), (3.0, 4.0)];
-        for (x, y) in [(0.0, 1.0), (0.5, 2.0), (2.0, 3.5), (5.0, 5.0)] {
-            assert_eq!(between(&points, x), y, "{x}");
-        }
-        assert_eq!(between(&points[..1], 7.0), 1.0);
     }
 
     #[test]
