@@ -103,6 +103,20 @@ fn backends(names: &[BackendName], threads: usize) -> Result<Vec<Chosen>> {
     })
 }
 
+/// What is swept or explained; the user is told its warnings.
+fn job(args: &SweepArgs) -> Result<Job> {
+    let mut defaults = Defaults::default();
+    if args.sweep.quick {
+        defaults.size = QUICK;
+    }
+    let job = Job::with(&args.scene, &args.view, &args.settings, &defaults)?;
+    job.check_drawable()?;
+    for warning in &job.warnings {
+        text::warn(&format!("warning: {warning}"));
+    }
+    Ok(job)
+}
+
 /// What became of a combination.
 enum Found {
     /// It was recorded before; seconds of a frame.
@@ -132,15 +146,7 @@ struct Sweep<'a> {
 impl<'a> Sweep<'a> {
     fn new(args: &'a SweepArgs) -> Result<(Self, SceneData)> {
         let out = &args.sweep;
-        let mut defaults = Defaults::default();
-        if out.quick {
-            defaults.size = QUICK;
-        }
-        let mut job = Job::with(&args.scene, &args.view, &args.settings, &defaults)?;
-        job.check_drawable()?;
-        for warning in &job.warnings {
-            text::warn(&format!("warning: {warning}"));
-        }
+        let mut job = job(args)?;
         let mut depth = if out.quick { HASTY } else { THOROUGH };
         let usual = Settings::default().spp;
         // Paths are those of the reference.

@@ -5,11 +5,10 @@ mod map;
 mod points;
 mod report;
 
-use super::QUICK;
 use crate::args::{BackendName, SweepArgs};
 use crate::commands::{SCHEMA_VERSION, facts};
 use crate::exit::{Failure, Result};
-use crate::job::{Defaults, Job};
+use crate::job::Job;
 use crate::output::exposure::automatic;
 use crate::output::font::Canvas;
 use crate::output::tonemap::Tonemap;
@@ -36,15 +35,7 @@ pub(super) fn run(args: &SweepArgs) -> Result<()> {
             "--explain sums up texels on the CPU alone; leave `--backend wgpu` away".into(),
         ));
     }
-    let mut defaults = Defaults::default();
-    if out.quick {
-        defaults.size = QUICK;
-    }
-    let mut job = Job::with(&args.scene, &args.view, &args.settings, &defaults)?;
-    job.check_drawable()?;
-    for warning in &job.warnings {
-        text::warn(&format!("warning: {warning}"));
-    }
+    let mut job = super::job(args)?;
     interrupt::listen()?;
     let files = Files::open(&out.output)?;
     let backend = CpuBackend::new(out.threads)?;
